@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.modelling.compare.ahead import Ahead, Left, ahead
+from thermodata.modelling.compare.ahead import Ahead, Left, ahead, values_worth
 from thermodata.modelling.predictions.predict import Predicted, predict
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
@@ -84,3 +84,41 @@ def test_no_band_where_nothing_says_how_sure_the_model_is(world: Dataset, spec: 
     assert known.of(replace(p, machine="m2")).half is None
     unsure = predict(fit_model(spec(*EFFECTS), world, uncertainty=False), world)[0][0]
     assert known.of(unsure).half is None
+
+
+def verifying(world: Dataset, *keys: str, **change: str) -> Dataset:
+    """The world with these tests verifying, changed, and the others for calibration but for the locked ones."""
+    tests = [
+        replace(t, role="verification", **change) if t.test in keys else t  # type: ignore[arg-type]
+        for t in world.tests
+    ]
+    return replace(world, tests=tuple(tests))
+
+
+def test_the_reach_is_that_of_all_open_tests(world: Dataset, spec: Spec) -> None:
+    """Verification tests in which the machine hardly moves made a band of 200 um where it does."""
+    data = verifying(world, "t4", "t5", "t6")
+    fitted = fit_model(spec(*EFFECTS), data)
+    most = max(float(np.abs(r.predict(t)).max()) for r in fitted.responses for t in fitted.tests(data))
+    assert ahead(fitted, data).left["dZ"].reach == pytest.approx(most, rel=0.05)
+
+
+def test_tests_of_another_machine_say_nothing_of_this_one(world: Dataset, spec: Spec) -> None:
+    here = replace(world, tests=tuple(replace(t, machine="A") for t in world.tests))
+    other = verifying(here, "t4", "t5", "t6", machine="B")
+    fitted = fit_model(spec(*EFFECTS), other)
+    left = ahead(fitted, other).left["dZ"]
+    assert left.refitted, "none of this machine verifies"
+    assert not {"t4", "t5", "t6"} & {name.rpartition("/")[2] for name in left.tests}
+
+
+def test_a_test_that_makes_all_of_what_is_left_counts_by_its_own_values() -> None:
+    rng = np.random.default_rng(0)
+
+    def worth(sizes: list[float]) -> float:
+        gaps = [size * rng.standard_normal(400) for size in sizes]
+        squares, values = np.array([np.mean(g**2) for g in gaps]), np.full(len(gaps), 10.0)
+        return values_worth(squares, values)
+
+    assert worth([1.0, 1.0, 1.0]) == pytest.approx(30.0, rel=0.1)
+    assert worth([10.0, 0.1, 0.1]) == pytest.approx(10.0, rel=0.01)

@@ -62,6 +62,8 @@ def test_what_was_told_of_a_test_is_taken_out_of_it_alone(store: Store, spec: Sp
     of = {(s.role, s.test): s.rmse_um for s in grown.scores if s.phase == "all"}
     before = {(s.role, s.test): s.rmse_um for s in grown.before or () if s.phase == "all"}
     assert set(of) == set(before), "verification tests took no part in it, and stay what they were"
+    with pytest.raises(UsageError, match="is in the model already"):
+        add(store, parent.model, "step:t2", "step:c/t2")
     assert (of["calibration", "t2"] or 9.0) < 0.5 < 2.0 < (before["calibration", "t2"] or 0.0)
 
 

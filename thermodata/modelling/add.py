@@ -47,6 +47,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
             raise UsageError(f"candidate '{name}' is named twice", expected="each once", got=str(candidate))
         names.append(name)
         lines = lines_of_test(name, grown, old.data, found, parent.result.responses)
+        if lines and any(line in grown.effects for line in lines):
+            raise UsageError(f"candidate '{name}' is in the model already", expected="each once", got=str(candidate))
         slips += [name] if lines else []
         grown = with_lines(grown, lines) if lines else with_candidate(grown, name, old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores

@@ -114,7 +114,7 @@ def predict_command(
         "elsewhere": elsewhere,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band)], out))
+    session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band, made)], out))
     return 3 if left_out else 0
 
 

@@ -19,12 +19,15 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.compare.left_out_error import LeftOut, counts
+from thermodata.modelling.inputs.roles import Key, in_full
+from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.predictions.predict import Predicted
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.trust.memory import effective_count
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
+from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import Dataset, TestData
 
 ENOUGH = 3  # verification tests that took no part; of fewer, each open test is left out in turn instead
@@ -88,38 +91,68 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
             {}, scale, machines, "the data changed since the model was fitted, and with them what its tests say of it"
         )
     left: dict[str, Left] = {}
+    reach = {r.name: _reach(r, fitted.tests(data)) for r in fitted.responses}
     for response in fitted.responses:
-        apart = [t for t in fitted.tests(data, "verification") if _took_no_part(fitted, response, t)]
+        apart = [t for t in fitted.tests(data, "verification") if _took_no_part(fitted, response, t, machines)]
         if len(apart) >= ENOUGH:
-            left[response.name] = _left([(response, t) for t in apart], refitted=False)
+            left[response.name] = _left([(response, t) for t in apart], reach[response.name], refitted=False)
     if len(left) < len(fitted.responses):
         try:
-            unseen = list(LeftOut(fitted.spec, data).unseen(fitted.spec))
+            unseen = list(LeftOut(_of(fitted, data, machines), data).unseen(fitted.spec))
         except UsageError as error:
             return Ahead({}, scale, machines, f"the model can't be fitted without one of its tests ({error.what})")
         for name in (r.name for r in fitted.responses if r.name not in left):
-            own = [(r, t) for r, t in unseen if r.name == name]
+            own = [(r, t) for r, t in unseen if r.name == name and t.key not in _seen(r) and _here(t, machines)]
             if len(own) >= FEWEST:
-                left[name] = _left(own, refitted=True)
+                left[name] = _left(own, reach[name], refitted=True)
     few = f"fewer than {FEWEST} open tests say what the model leaves on one that it has not seen"
     return Ahead(left, scale, machines, None if left else few)
 
 
-def _took_no_part(fitted: FittedModel, response: FittedResponse, test: TestData) -> bool:
-    seen = any(test.key in r.fitted_on for r in fitted.responses) or test.key in fitted.overlaps
-    return not seen and counts(response, test)
+def _took_no_part(fitted: FittedModel, response: FittedResponse, test: TestData, machines: Sequence[str]) -> bool:
+    seen = any(test.key in _seen(r) for r in fitted.responses) or test.key in fitted.overlaps
+    return not seen and _here(test, machines) and counts(response, test)
 
 
-def _left(unseen: Sequence[tuple[FittedResponse, TestData]], refitted: bool) -> Left:
+def _seen(response: FittedResponse) -> frozenset[Key]:
+    """The tests that its parameters come from, those of a model inside too."""
+    inside = [t.effect.response for t in response.terms if isinstance(t.effect, ModelOutput)]
+    return response.fitted_on.union(*map(_seen, inside))
+
+
+def _here(test: TestData, machines: Sequence[str]) -> bool:
+    return not (machines and test.machine) or test.machine in machines
+
+
+def _of(fitted: FittedModel, data: Dataset, machines: Sequence[str]) -> Model:
+    """The model without what it is only verified on elsewhere."""
+    own = [key for key in fitted.roles.verify if _here(data.test(*key), machines)]
+    roles = {"calibrate_on": in_full(fitted.roles.calibrate), "verify_on": in_full(own)}
+    return fitted.spec.model_copy(update=roles)
+
+
+def _reach(response: FittedResponse, tests: Iterable[TestData]) -> float:
+    """The largest prediction in the open tests."""
+    sizes = (np.abs(response.predict(t)[response.mask(t)]).max() for t in tests if counts(response, t))
+    return max(map(float, sizes), default=0.0)
+
+
+def _left(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> Left:
     found = [*_errors(unseen)]
+    squares, worth = (np.array([one[i] for one in found]) for i in (1, 3))
     return Left(
         unseen[0][0].unit,
         float(np.sqrt(np.mean([square for _, square, _, _ in found]))),
-        max(reach for _, _, reach, _ in found),
+        max(reach, *(own for _, _, own, _ in found)),
         tuple(name for name, _, _, _ in found),
         refitted,
-        sum(worth for _, _, _, worth in found),
+        values_worth(squares, worth),
     )
+
+
+def values_worth(squares: Float1D, worth: Float1D) -> float:
+    """How many independent values say the mean of some mean squares, each of so many ([satterthwaite1946])."""
+    return float(squares.sum() ** 2 / np.sum(squares**2 / worth)) if squares.any() else float(worth.sum())
 
 
 def _errors(unseen: Iterable[tuple[FittedResponse, TestData]]) -> Iterator[tuple[str, float, float, float]]:

@@ -35,14 +35,14 @@ def bands(response: FittedResponse, test: TestData, *, from_start: bool = False)
     for term in response.terms:
         if not term.bound.covers(test) or not _moves(term):
             continue
-        if term.spread is None:
+        if term.spread is None or (from_start and _is_open(term, term.spread, test)):
             complete = False
             continue
         own = _slopes(term, term.spread, test)
         known[term.id] = _deviation(own, term.spread)
         before = slopes.get(id(term.spread))
         slopes[id(term.spread)] = (term.spread, own if before is None else before[1] + own)
-    if not complete or not slopes:
+    if not complete or not (slopes or from_start):
         return Bands(None, known)
     start = np.zeros(len(test.t_s), bool) if from_start else response.offset_from(test)
     variance = np.zeros(len(test.t_s))
@@ -57,6 +57,14 @@ def _moves(term: FittedTerm) -> bool:
     """Whether anything of the term was fitted; what the file fixes has no spread."""
     names = [p.name for p in term.effect.params] + [g.name for g in term.effect.gains]
     return any(name not in term.bound.spec.fixed for name in names)
+
+
+def _is_open(term: FittedTerm, spread: Together, test: TestData) -> bool:
+    """Whether it acts in a test by a gain of which the fit knows nothing."""
+    group, fixed = term.bound.group(test), term.bound.spec.fixed
+    known = {name for owners, name in spread.owners if (term.id, group) in owners}
+    unknown = [i for i, g in enumerate(term.effect.gains) if g.name not in known and g.name not in fixed]
+    return bool(unknown) and bool(np.any(term.columns(test)[:, unknown]))
 
 
 def _slopes(term: FittedTerm, spread: Together, test: TestData) -> Float2D:

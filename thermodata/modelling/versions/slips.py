@@ -44,7 +44,7 @@ def lines_of_test(
             f"no step was told of test '{named.strip()}'",
             expected=told or "a step that diagnose tells",
             got=candidate,
-            hint=f"thermodata diagnose {spec.name}; or write the line into the model file: {{effect: step, tests: "
+            hint=f"thermodata diagnose {spec.name if found is None else found.model}; or write the line into the model file: {{effect: step, tests: "
             f"[{named.strip()}], fixed: {{at: 90 min}}}}",
         )
     return lines

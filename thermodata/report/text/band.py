@@ -19,12 +19,17 @@ HOLDS_NOT = (
 )
 
 
-def band_text(band: Ahead) -> list[str]:
-    """A line for each response."""
+def band_text(band: Ahead, made: Sequence[Predicted]) -> list[str]:
+    """A line for each response that was predicted on a machine of the model."""
     if band.why_not is not None:
         return [f"no band of 95 %: {band.why_not}"]
     several, lines = len(band.scale) > 1, list[str]()
-    for name, left in band.left.items():
+    for name in dict.fromkeys(p.response for p in made if not band.elsewhere(p)):
+        left, of = band.left.get(name), f" of {name}" if several else ""
+        if left is None or all(p.half is None for p in made if p.response == name):
+            why = "how its parameters spread" if left else "what is left on tests that it has not seen"
+            lines.append(f"no band of 95 %{of}: {why} is not known")
+            continue
         tests = f"{len(left.tests)} {'open tests, each left out' if left.refitted else 'verification tests'}"
         scale = band.scale.get(name, 0.0)
         unsure = (
@@ -33,7 +38,7 @@ def band_text(band: Ahead) -> list[str]:
             else "no calibration, for none says how sure it is"
         )
         lines.append(
-            f"95 %{f' of {name}' if several else ''}: from the parameters, {unsure}, and what the model leaves on "
+            f"95 %{of}: from the parameters, {unsure}, and what the model leaves on "
             f"{tests} ({number(left.rms)} {left.unit} rms; beyond {number(left.reach)} {left.unit} in proportion); "
             f"{HOLDS_NOT}"
         )
