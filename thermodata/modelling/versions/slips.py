@@ -40,11 +40,12 @@ def lines_of_test(
     own = [r for r, n in zip(spec.responses, names, strict=True) if found is not None and n == found.response]
     lines = [_of_step(a, spec, own, in_full(test)) for a in steps if (a.campaign, a.test) in test]
     if not lines:
+        asked = spec.name if found is None else found.model
         raise UsageError(
             f"no step was told of test '{named.strip()}'",
             expected=told or "a step that diagnose tells",
             got=candidate,
-            hint=f"thermodata diagnose {spec.name if found is None else found.model}; or write the line into the model file: {{effect: step, tests: "
+            hint=f"thermodata diagnose {asked}; or write the line into the model file: {{effect: step, tests: "
             f"[{named.strip()}], fixed: {{at: 90 min}}}}",
         )
     return lines
