@@ -153,7 +153,7 @@ def test_what_groups_share_is_said_once_by_the_name_that_its_row_has(shared: boo
     assert said == [
         f"{what}{tag}" for what in ("at_bound:straight.tau", "not_determined:straight.tau2") for tag in tags
     ]
-    response: Any = SimpleNamespace(name="Z", unit="um", terms=[found])
+    response: Any = SimpleNamespace(name="Z", unit="um", terms=[found], scale=0.0)
     rows = parameters.parameters([response])
     assert {name.partition(":")[2] for name in said} <= set(rows)
     checks_of = [Check(name=name, value=1.0, threshold=None, passed=False, advice="") for name in said]
