@@ -18,8 +18,8 @@ MORNING, NOON = 7 * 60 + 4, 13 * 60 + 4  # when the tests of a day begin, by the
 
 
 def drafted(folder: Path, say: Say, tests: list[int], hours: int, logged: tuple[int, int], more: int = 0) -> str:
-    """The draft of two days' tests of 4 h, that begin so many minutes after the midnights of a control whose clock is so
-    many hours ahead of UTC. logged: from and to [min] of each day's file, with 2000 rpm before noon and 8000 rpm
+    """The draft of two days' tests of 4 h, that begin so many minutes after the midnights of a control, whose clock is
+    so many hours ahead of UTC. logged: from and to [min] of each day's file, with 2000 rpm before noon and 8000 rpm
     behind. more: days before and behind that it has files of."""
     for day in range(2):
         for k, first in enumerate(tests):
@@ -68,6 +68,8 @@ def test_days_of_which_another_is_the_tests_by_another_zone_are_of_no_test(
     """The tests lie in the first files by one zone, and in those of the next day by another."""
     text = drafted(tmp_path, say, [60, 5 * 60], hours, (0, 1440), more=1)
     campaign = load_campaign(tmp_path / "campaign.yaml")
-    assert {t.id: "cnc" in t.files for t in campaign.tests} == dict.fromkeys(["run00", "run01", "run10", "run11"], False)
+    assert [(t.id, "cnc" in t.files) for t in campaign.tests] == [
+        (test, False) for test in ("run00", "run01", "run10", "run11")
+    ]
     assert campaign.sources["cnc"].files == "cnc_2026030*.csv"
     assert "from the other sources' UTC" not in text

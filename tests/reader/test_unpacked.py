@@ -27,6 +27,7 @@ from thermodata.testing.reader.apart import together
 
 LOG = "time [s],T_bed [degC]\n" + "".join(f"{i},{20 + i / 10:.1f}\n" for i in range(60))
 
+
 @pytest.fixture(autouse=True)
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Where logs are unpacked to."""
