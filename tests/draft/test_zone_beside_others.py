@@ -192,5 +192,19 @@ def test_a_source_whose_zone_was_never_declared_is_asked_with_those_of_the_other
     assert "America/Chicago of " in asked_of
 
 
+def test_zones_of_a_torn_file_that_name_no_source_are_all_said_and_none_is_taken(tmp_path: Path) -> None:
+    of_two_clocks(tmp_path)
+    lines = (f"  {name}:\n    reader: cnc\n    timezone: {zone}" for name, zone in DECLARED.items())
+    (tmp_path / "campaign.yaml").write_text("\n".join(["sources:", *lines, "tests:", "  - {id: ", ""]))
+    draft = draft_files(tmp_path, force=True).draft
+    assert [s.timezone for s in draft.sources] == [None, None]
+    said = [q for s in draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert len(said) == 2
+    assert all("; the campaign file before declares Europe/Prague, America/Chicago" in q for q in said)
+
+
+DECLARED = {"ctrl": "Europe/Prague", "probe": "America/Chicago"}
+
+
 def _sources(path: Path) -> list[dict[str, object]]:
     return [{"name": n, **s} for n, s in yaml.safe_load(path.read_text())["sources"].items()]

@@ -13,6 +13,7 @@ from thermodata_reader_crio import Reader
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.finding.registry import reader
 
 nptdms = pytest.importorskip("nptdms")
 T0 = np.datetime64("2026-03-12T07:00:00", "ns").astype(np.int64)
@@ -27,9 +28,9 @@ def written(path: Path, channels: dict[str, Any], **properties: Any) -> Path:
 
 
 def times(path: Path, source: Source) -> list[int]:
-    reader = Reader()
-    recording = described(reader, path, source)
-    return [int(t) for b in guarded(reader, path, source, recording) if isinstance(b, Block) for t in b.t_ns]
+    own = Reader()
+    recording = described(own, path, source)
+    return [int(t) for b in guarded(own, path, source, recording) if isinstance(b, Block) for t in b.t_ns]
 
 
 @pytest.mark.parametrize(
@@ -213,3 +214,45 @@ def test_a_date_and_a_time_beside_a_whole_timestamp_or_a_waveform_are_signals(tm
     start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 1.0}
     path = written(tmp_path / "b.tdms", {**texts, "T": np.arange(30.0)}, **start)
     assert T0 in times(path, Source())
+
+
+OVER_MIDNIGHT = [datetime(2026, 3, 2, 23, 58) + timedelta(seconds=10 * k) for k in range(30)]
+ITS_DATE = ["02.03.2026"] * 30  # of the day on which the file began
+LATE = [f"{t:%H:%M:%S}" for t in OVER_MIDNIGHT]
+
+
+@pytest.mark.parametrize(
+    ("days", "clocks"),
+    [
+        (ITS_DATE, LATE),
+        ([f"{t:%d.%m.%Y}" for t in OVER_MIDNIGHT], LATE),
+        (["03/02/2026"] * 30, [f"{t:%I:%M:%S %p}" for t in OVER_MIDNIGHT]),
+        ([*ITS_DATE[:13], *[f"{t:%d.%m.%Y}" for t in OVER_MIDNIGHT[13:]]], [*LATE[:12], "24:00:00", *LATE[13:]]),
+        (ITS_DATE, [*LATE[:12], "23:59:60", *LATE[13:]]),
+        ([*ITS_DATE[:5], "", *ITS_DATE[6:]], [*LATE[:5], "", *LATE[6:]]),
+    ],
+    ids=["stands still", "changes", "am and pm", "24:00:00", "second 60", "an empty row"],
+)
+def test_two_channels_are_read_as_the_same_two_columns_of_a_text(
+    tmp_path: Path, days: list[str], clocks: list[str]
+) -> None:
+    path = written(tmp_path / "a.tdms", {"Date": days, "Time": clocks, "T": np.arange(30.0)})
+    rows = (";".join(row) for row in zip(days, clocks, map(str, range(30)), strict=True))
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Time;T", *rows, ""]))
+    asked = {"timezone": "UTC", **({"table": {"time": {"format": "mdy"}}} if "/" in days[0] else {})}
+    table, source = reader("table"), Source(**asked)
+    recording = described(table, tmp_path / "a.csv", source)
+    blocks = guarded(table, tmp_path / "a.csv", source, recording)
+    of_text = [int(t) for b in blocks if isinstance(b, Block) for t in b.t_ns]
+    assert times(path, source) == of_text
+    began = int(np.datetime64(OVER_MIDNIGHT[0], "ns").astype(np.int64))
+    assert of_text == [began + 10**10 * k for k in range(30) if days[k]]
+    still = [n for n in described(Reader(), path, source).notes if "midnights are counted" in n]
+    assert still == [n for n in recording.notes if "midnights are counted" in n]
+    assert bool(still) is (len(set(days)) == 1)
+
+
+def test_times_of_day_with_their_offset_beside_dates_are_of_it(tmp_path: Path) -> None:
+    texts = {"Date": stamps("%Y-%m-%d"), "Time": stamps("%H:%M:%S+01:00")}
+    path = written(tmp_path / "a.tdms", {**texts, "T": np.arange(30.0)})
+    assert times(path, Source()) == [T0 + k * 60 * 10**9 for k in range(30)]

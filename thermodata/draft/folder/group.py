@@ -198,17 +198,20 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
     if not begins or len(own) < len(group.files):
         return group
     local = any(f.local for f in (*own, *(x for v in main.tests.values() for x in v)))
+    parts: dict[str, tuple[RawFile, ...]] | None = {}
     if len(own) > 1 and len(begins) == len(main.tests) and all(f.sample.whole for f in own):
         ran = {t: (begins[t], max(max(x.sample.last_ns or 0, begins[t]) for x in f)) for t, f in main.tests.items()}
-        if parts := over_tests(own, ran, local):
+        parts = over_tests(own, ran, local)
+        if parts:
             return replace(group, tests=parts, questions=("each file is of the tests that ran during it?",))
     spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
     inside = {
         t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
         for t, begin in begins.items()
     }
+    for_many = replace(group, shared=True, tests={}, questions=("one log for many tests?",))
     if len(begins) > len(own) and sum(map(bool, inside.values())) > len(own):
-        return replace(group, shared=True, tests={}, questions=("one log for many tests?",))
+        return for_many
     best: dict[str, RawFile] = {}
     for shift in sorted(range(-13, 15), key=abs):
         if shift and not local:
@@ -222,6 +225,8 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
                     paired[test] = near[0]
         if len(paired) > len(best):
             best = paired
+    if parts is None and len(best) < len(begins):  # some begin a whole number of hours from a day's file by chance
+        return for_many
     if len(best) * 2 < len(own):
         return group
     joined = {f.path for f in best.values()}

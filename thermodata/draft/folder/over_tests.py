@@ -16,10 +16,10 @@ _NEAR_NS = 60_000_000_000  # by which a log may begin after the test, or end bef
 
 def over_tests(
     files: Sequence[RawFile], spans: Mapping[str, tuple[int, int]], local: bool
-) -> dict[str, tuple[RawFile, ...]]:
+) -> dict[str, tuple[RawFile, ...]] | None:
     """Test -> the one file that runs from its beginning to its end, its courses being those of the test; empty where
-    another than one does for any test, or for each test another one. spans: test -> its first and last time [ns];
-    local: whether times of one of the two may be whole hours ahead."""
+    another than one does for any test, or for each test another one; None where it is another by another zone. spans:
+    test -> its first and last time [ns]; local: whether times of one of the two may be whole hours ahead."""
     fits: list[dict[str, tuple[RawFile, RawFile]]] = []  # for each number of hours: the file, and the part of it
     for hours in range(-13, 15) if local else (0,):
         found: dict[str, tuple[RawFile, RawFile]] = {}
@@ -31,8 +31,10 @@ def over_tests(
             found[test] = running[0], _within(running[0], first, last)
         if len(found) == len(spans) and len({whole.path for whole, _ in found.values()}) < len(found):
             fits.append(found)
-    if len({tuple(whole.path for whole, _ in found.values()) for found in fits}) != 1:
+    if not fits:
         return {}
+    if len({tuple(whole.path for whole, _ in found.values()) for found in fits}) > 1:
+        return None
     # a day's file holds a test at many hours: which part of it is the test's nobody knows before its zone
     return {test: (part if len(fits) == 1 else whole,) for test, (whole, part) in fits[0].items()}
 

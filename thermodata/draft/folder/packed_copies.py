@@ -13,7 +13,6 @@ from thermodata.reader.files.rotated import as_unpacked
 from thermodata.reader.files.unpacked import held
 from thermodata.schema.words.sentences import with_count
 
-_PART = 1 << 20
 _SHOWN = 3
 
 
@@ -28,11 +27,12 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         else:
             loose.setdefault(path.name, []).append(path)
     found = {}
-    digest, size = cache(_digest), cache(size_of)  # a log of one length lies in the folder of each test
+    digest, size = cache(_digest), cache(_size)  # a log of one length lies in the folder of each test
     for path in packed:
         others = loose.get(as_unpacked(path).name, ())
         if archive_of(folder / path) is not None:
-            others = [o for o in others if size(folder / o) == _size(folder / path)]
+            unpacked = _size(folder / path)
+            others = [o for o in others if size(folder / o) == unpacked]
         of = next((o for o in others if digest(folder / path) == digest(folder / o) is not None), None)
         if of is not None:
             found[path] = of

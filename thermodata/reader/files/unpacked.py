@@ -93,7 +93,18 @@ def forget_unpacked() -> None:
             _folder = None
 
 
+def _forked() -> None:
+    """What was unpacked before a fork stays the parent's, as do its open archives, whose places both would move."""
+    global _folder, _lock
+    _lock = threading.RLock()  # a thread that is not here may hold the other
+    _copies.clear()
+    _folder = None
+    _zipped.cache_clear()
+
+
 atexit.register(forget_unpacked)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forked)
 
 
 def _packed_in(path: Path) -> tuple[Path, str] | None:

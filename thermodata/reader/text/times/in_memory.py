@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from thermodata.errors import QuestionError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.times import timestamp
@@ -55,13 +55,16 @@ def times_of_pairs(
 ) -> Stamps:
     """The same of a column of dates and one of times of day: midnights are counted where the date stands still."""
     try:
-        forms = () if declared else find_formats(["", ""], [list(days), list(clocks)], None, where)
-    except QuestionError:  # which both together may answer
+        forms = find_formats(["", ""], [list(days), list(clocks)], declared, where)
+    except (FormatError, QuestionError):  # which both together may answer
         forms = ()
     if not have_days(forms):
         cells = [f"{day} {clock}" if day and clock else "" for day, clock in zip(days, clocks, strict=True)]
         return times_of_texts(cells, timezone, declared, where)
-    told = (STANDS,) if stands(list(zip(days, clocks, strict=True)), (0, 1), forms) else ()
+    at_sixty = at_second_sixty(list(clocks), forms[1])
+    told = [said_of_sixty(at_sixty.size, clocks[at_sixty[0]])] if at_sixty.size else []
+    if stands(list(zip(days, clocks, strict=True)), (0, 1), forms):
+        told.append(STANDS)
     day_ns, clock_ns = (timestamp.parse(list(c), f) for c, f in zip((days, clocks), forms, strict=True))
     ns = Days().join(day_ns, clock_ns, np.zeros(len(days), np.bool_))
     utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)

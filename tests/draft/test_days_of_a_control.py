@@ -1,0 +1,75 @@
+"""A control's file a day beside a probe's log a test: which part of it is the test's is known by its zone alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from thermodata.schema.files.load import load_campaign
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+MIDNIGHT = datetime(2026, 3, 2, tzinfo=UTC)
+MORNING, NOON = 7 * 60 + 4, 13 * 60 + 4  # when the tests of a day begin, by the control's clock [min]
+
+
+def drafted(folder: Path, say: Say, tests: list[int], hours: int, logged: tuple[int, int], more: int = 0) -> str:
+    """The draft of two days' tests of 4 h, that begin so many minutes after the midnights of a control, whose clock is
+    so many hours ahead of UTC. logged: from and to [min] of each day's file, with 2000 rpm before noon and 8000 rpm
+    behind. more: days before and behind that it has files of."""
+    for day in range(2):
+        for k, first in enumerate(tests):
+            began = MIDNIGHT + timedelta(days=day, minutes=first, hours=-hours)
+            rows = [f"{began + timedelta(minutes=i):%Y-%m-%dT%H:%M:%SZ},{i % 7},{20 + i / 99:.2f}" for i in range(240)]
+            (folder / f"run{day}{k}.csv").write_text("\n".join(["time,dZ [um],T_bed [degC]", *rows, ""]))
+    for day in range(-more, 2 + more):
+        minutes = range(*logged)
+        own = [MIDNIGHT + timedelta(days=day, minutes=m) for m in minutes]
+        rows = [
+            f"{t:%Y-%m-%d %H:%M:%S},{22 + m / 999:.2f},{8000 if m > 740 else 2000}"
+            for t, m in zip(own, minutes, strict=True)
+        ]
+        lines = ["time,T_front [degC],n [rpm]", *rows, ""]
+        (folder / f"cnc_{MIDNIGHT + timedelta(days=day):%Y%m%d}.csv").write_text("\n".join(lines))
+    assert say("init", folder).code == 0
+    return (folder / "campaign.yaml").read_text()
+
+
+def test_a_day_that_holds_its_tests_at_many_hours_tells_no_zone_and_no_speed(tmp_path: Path, say: Say) -> None:
+    text = drafted(tmp_path, say, [MORNING, NOON], -6, (0, 1440))
+    campaign = load_campaign(tmp_path / "campaign.yaml")
+    files = {t.id: t.files["cnc"] for t in campaign.tests}
+    assert files == {f"run{day}{k}": f"cnc_2026030{2 + day}.csv" for day in (0, 1) for k in (0, 1)}
+    assert "from the other sources' UTC" not in text
+    assert "timezone? it logs local times without a zone; taken as UTC" in text
+    assert not any("speed" in t.conditions for t in campaign.tests)
+
+
+def test_one_that_holds_them_at_one_hour_alone_tells_the_speed_of_each(tmp_path: Path, say: Say) -> None:
+    drafted(tmp_path, say, [MORNING, NOON], -6, (MORNING - 1, NOON + 250))
+    campaign = load_campaign(tmp_path / "campaign.yaml")
+    speeds = {t.id: str(t.conditions.get("speed")) for t in campaign.tests}
+    assert {test: said.split()[0] for test, said in speeds.items()} == {
+        "run00": "2000",
+        "run01": "8000",
+        "run10": "2000",
+        "run11": "8000",
+    }
+
+
+@pytest.mark.parametrize("hours", [9, -9])
+def test_days_of_which_another_is_the_tests_by_another_zone_are_of_no_test(
+    tmp_path: Path, say: Say, hours: int
+) -> None:
+    """The tests lie in the first files by one zone, and in those of the next day by another."""
+    text = drafted(tmp_path, say, [60, 5 * 60], hours, (0, 1440), more=1)
+    campaign = load_campaign(tmp_path / "campaign.yaml")
+    assert [(t.id, "cnc" in t.files) for t in campaign.tests] == [
+        (test, False) for test in ("run00", "run01", "run10", "run11")
+    ]
+    assert campaign.sources["cnc"].files == "cnc_2026030*.csv"
+    assert "from the other sources' UTC" not in text

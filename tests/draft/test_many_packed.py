@@ -1,0 +1,65 @@
+"""Archives of many files: each file is looked at once, however many are called as it is."""
+
+from __future__ import annotations
+
+import zipfile
+from collections import Counter
+from contextlib import AbstractContextManager
+from pathlib import Path, PurePosixPath
+
+import pytest
+
+from thermodata.draft.folder import packed_copies as module
+from thermodata.draft.folder.packed_copies import by_archive, packed_copies
+
+
+def test_logs_of_one_name_and_one_length_are_each_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = [f"time [s],x\n{k:06d},1\n" for k in range(8)]
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as zipped:
+        for k, text in enumerate(texts):
+            zipped.writestr(f"t{k}/log.csv", text if k % 2 else text.upper())
+    for k, text in enumerate(texts):
+        (tmp_path / f"u{k}").mkdir()
+        (tmp_path / f"u{k}/log.csv").write_text(text)
+    paths = [PurePosixPath(f"{of}{k}/log.csv") for k in range(8) for of in ("all.zip/t", "u")]
+    read: Counter[Path] = Counter()
+
+    def counted(path: Path) -> AbstractContextManager[Path]:
+        read[path] += 1
+        return held(path)
+
+    held = module.held
+    monkeypatch.setattr(module, "held", counted)
+    assert packed_copies(tmp_path, paths) == {
+        PurePosixPath(f"all.zip/t{k}/log.csv"): PurePosixPath(f"u{k}/log.csv") for k in range(1, 8, 2)
+    }
+    assert set(read.values()) == {1}
+
+
+def test_a_log_that_is_gone_by_now_is_no_copy(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as zipped:
+        zipped.writestr("log.csv", "time [s],x\n0,1\n")
+    (tmp_path / "log.csv").write_text("time [s],x\n0,1\n")
+    paths = [PurePosixPath(name) for name in ("all.zip/log.csv", "u1/log.csv", "log.csv")]
+    assert packed_copies(tmp_path, paths) == {paths[0]: paths[2]}
+
+
+def test_an_archive_of_photos_is_worded_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    names = [f"p{k:02d}.jpg" for k in range(40)]
+    with zipfile.ZipFile(tmp_path / "photos.zip", "w") as zipped:
+        for name in names:
+            zipped.writestr(name, "x")
+    worded = []
+
+    def counted(items: list[str], shown: int) -> str:
+        worded.append(items)
+        return with_count(items, shown)
+
+    with_count = module.with_count
+    monkeypatch.setattr(module, "with_count", counted)
+    ((path, why),) = by_archive(tmp_path, [(f"photos.zip/{name}", "no table") for name in names], [], [])
+    assert (path, why) == (
+        "photos.zip",
+        "no file in it is read as a log (p00.jpg, p01.jpg, p02.jpg and 37 more): no table",
+    )
+    assert len(worded) == 1
