@@ -26,6 +26,10 @@ def test_a_text_with_tables_is_in_the_units_of_its_responses() -> None:
 def test_a_page_has_a_dash_where_there_is_no_number() -> None:
     assert [typeset(text) for text in (number(None), change(None, 1.0), number(-1.0))] == ["–", "–", "−1.00"]
     assert typeset("lag-free") == "lag-free"
+    line = "{effect: step, tests: [c/t], fixed: {at: 90 min, gain: -14}}"
+    assert typeset(f"jumps by -14.0 um: write '- {line}' (2 um -> 1 um)") == (
+        f"jumps by −14.0\u00a0µm: write '- {line}' (2\u00a0µm → 1\u00a0µm)"
+    )
 
 
 def test_a_change_of_nothing_has_no_sign() -> None:

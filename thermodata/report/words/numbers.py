@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
 _SMALLEST = 1e-10  # probability that is told as a number
+_TO_COPY = re.compile(r"(\{(?:[^{}]|\{[^{}]*\})*\})")  # a line of a file, in braces, which may hold braces
 
 
 def number(value: Any, digits: int = 3) -> str:
@@ -57,9 +58,13 @@ def in_units(text: str, units: Mapping[str, str]) -> str:
 
 def typeset(text: str) -> str:
     """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus, and a
-    dash where there is none."""
+    dash where there is none; but for lines in braces, which are copied into a file."""
     if text == "-":
         return "–"
+    return "".join(part if i % 2 else _typeset(part) for i, part in enumerate(_TO_COPY.split(text)))
+
+
+def _typeset(text: str) -> str:
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
     text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)  # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
