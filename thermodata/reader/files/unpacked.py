@@ -12,13 +12,12 @@ import bz2
 import gzip
 import os
 import shutil
-import tempfile
 import threading
 import zipfile
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, closing, contextmanager, suppress
+from contextlib import AbstractContextManager, closing, contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from io import BufferedReader
@@ -28,6 +27,7 @@ from typing import IO, Any
 from thermodata.errors import FormatError
 from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
 from thermodata.reader.files.members import SUFFIX, archive_of, is_archive, listed, same
+from thermodata.reader.files.process_folder import process_folder
 from thermodata.reader.files.regular import opened
 from thermodata.reader.files.too_much import MOST_BYTES, most_of, no_room
 
@@ -37,7 +37,6 @@ _OPEN: dict[str, Callable[[BufferedReader], Any]] = {
     "gzip": lambda file: gzip.GzipFile(fileobj=file),
     "bzip2": bz2.BZ2File,
 }
-_UNNAMED, _PREFIX, _IN_USE = "thermodata-unpacking-", "thermodata-unpacked-", "in-use"
 _SUFFIXES = (".gz", ".bz2")
 PACKED = (SUFFIX, *_SUFFIXES)
 
@@ -156,8 +155,7 @@ def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
     """Unpacks a file, under the name that it had, with the time of what it was packed in."""
     global _folder, _count
     if _folder is None:
-        _drop_left()
-        _folder = _own_folder()
+        _folder = process_folder("unpacked")
     _count += 1
     place = _folder / str(_count)
     place.mkdir()
@@ -182,31 +180,6 @@ def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
         raise
     os.utime(target, ns=(status.st_atime_ns, status.st_mtime_ns))
     return _Copy(target, size)
-
-
-def _own_folder() -> Path:
-    """A folder that goes with the process. It has its name once its lock is held: before, nobody looks at it."""
-    made = Path(tempfile.mkdtemp(prefix=_UNNAMED))
-    with suppress(ImportError, OSError):
-        import fcntl
-
-        lock = os.open(made / _IN_USE, os.O_CREAT | os.O_RDWR)
-        fcntl.flock(lock, fcntl.LOCK_EX)  # for as long as this process
-    return made.rename(made.with_name(made.name.replace(_UNNAMED, _PREFIX)))
-
-
-def _drop_left() -> None:
-    """Deletes what processes that were killed left: nobody holds the lock of their folders."""
-    for left in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
-        with suppress(ImportError, OSError):
-            import fcntl
-
-            lock = os.open(left / _IN_USE, os.O_RDWR)
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                shutil.rmtree(left, ignore_errors=True)
-            finally:
-                os.close(lock)
 
 
 def _written(source: AbstractContextManager[IO[bytes]], target: Path, where: str, most: int) -> int:
