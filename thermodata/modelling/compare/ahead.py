@@ -5,15 +5,16 @@
 sd: of the parameters, carried to the prediction (`predictions.bands`). u: of the probe's sensitivity, a factor on all.
 s: root mean square of what is left on unseen tests, each from its first samples, as a prediction is; t: of Student's
 distribution with as many degrees of freedom as what is left there has independent values, one a test at least. Y: the
-largest that the model predicted in them: beyond it what is left is taken to grow in proportion.
+largest that the model predicts in any open test: beyond it what is left is taken to grow in proportion.
 
 Source: docs/model.md#the-band-of-a-prediction
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,7 +38,7 @@ FEWEST = 2  # tests that say what is left
 @dataclass(frozen=True, slots=True)
 class Left:
     """What is left of a response on unseen tests. rms: in its unit, each test alike; reach: the largest prediction in
-    them; refitted: they were left out in turn, else they are verification tests; worth: independent values."""
+    the open ones; refitted: they were left out in turn, else they are verification tests; worth: independent values."""
 
     unit: str
     rms: float
@@ -69,7 +70,7 @@ class Ahead:
 
     def elsewhere(self, p: Predicted) -> bool:
         """Whether it is of another machine, of which the tests of the model say nothing."""
-        return bool(p.machine and self.machines) and p.machine not in self.machines
+        return not _is_one_of(p.machine, self.machines)
 
     def of(self, p: Predicted) -> Predicted:
         """The prediction with its band, where that is known."""
@@ -98,11 +99,15 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
             left[response.name] = _left([(response, t) for t in apart], reach[response.name], refitted=False)
     if len(left) < len(fitted.responses):
         try:
-            unseen = list(LeftOut(_of(fitted, data, machines), data).unseen(fitted.spec))
+            unseen = list(LeftOut(_of_own_machine(fitted, data, machines), data).unseen(fitted.spec))
         except UsageError as error:
             return Ahead({}, scale, machines, f"the model can't be fitted without one of its tests ({error.what})")
         for name in (r.name for r in fitted.responses if r.name not in left):
-            own = [(r, t) for r, t in unseen if r.name == name and t.key not in _seen(r) and _here(t, machines)]
+            own = [
+                (r, t)
+                for r, t in unseen
+                if r.name == name and t.key not in _seen(r) and _is_one_of(t.machine, machines)
+            ]
             if len(own) >= FEWEST:
                 left[name] = _left(own, reach[name], refitted=True)
     few = f"fewer than {FEWEST} open tests say what the model leaves on one that it has not seen"
@@ -111,7 +116,7 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
 
 def _took_no_part(fitted: FittedModel, response: FittedResponse, test: TestData, machines: Sequence[str]) -> bool:
     seen = any(test.key in _seen(r) for r in fitted.responses) or test.key in fitted.overlaps
-    return not seen and _here(test, machines) and counts(response, test)
+    return not seen and _is_one_of(test.machine, machines) and counts(response, test)
 
 
 def _seen(response: FittedResponse) -> frozenset[Key]:
@@ -120,13 +125,14 @@ def _seen(response: FittedResponse) -> frozenset[Key]:
     return response.fitted_on.union(*map(_seen, inside))
 
 
-def _here(test: TestData, machines: Sequence[str]) -> bool:
-    return not (machines and test.machine) or test.machine in machines
+def _is_one_of(machine: str, machines: Sequence[str]) -> bool:
+    """Or may be: where none is known, all are one."""
+    return not (machines and machine) or machine in machines
 
 
-def _of(fitted: FittedModel, data: Dataset, machines: Sequence[str]) -> Model:
+def _of_own_machine(fitted: FittedModel, data: Dataset, machines: Sequence[str]) -> Model:
     """The model without what it is only verified on elsewhere."""
-    own = [key for key in fitted.roles.verify if _here(data.test(*key), machines)]
+    own = [key for key in fitted.roles.verify if _is_one_of(data.test(*key).machine, machines)]
     roles = {"calibrate_on": in_full(fitted.roles.calibrate), "verify_on": in_full(own)}
     return fitted.spec.model_copy(update=roles)
 
@@ -138,13 +144,13 @@ def _reach(response: FittedResponse, tests: Iterable[TestData]) -> float:
 
 
 def _left(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> Left:
-    found = [*_errors(unseen)]
-    squares, worth = (np.array([one[i] for one in found]) for i in (1, 3))
+    found = [_unseen(response, test) for response, test in unseen]
+    squares, worth = np.array([one.square for one in found]), np.array([one.worth for one in found])
     return Left(
         unseen[0][0].unit,
-        float(np.sqrt(np.mean([square for _, square, _, _ in found]))),
-        max(reach, *(own for _, _, own, _ in found)),
-        tuple(name for name, _, _, _ in found),
+        float(np.sqrt(np.mean(squares))),
+        max(reach, *(one.reach for one in found)),
+        tuple(one.test for one in found),
         refitted,
         values_worth(squares, worth),
     )
@@ -155,15 +161,18 @@ def values_worth(squares: Float1D, worth: Float1D) -> float:
     return float(squares.sum() ** 2 / np.sum(squares**2 / worth)) if squares.any() else float(worth.sum())
 
 
-def _errors(unseen: Iterable[tuple[FittedResponse, TestData]]) -> Iterator[tuple[str, float, float, float]]:
-    """(test, mean square of what is left, largest prediction, independent values), each from its first samples."""
-    for response, test in unseen:
-        mask = response.mask(test)
-        predicted = response.predict(test)
-        gap = (response.measured(test) - predicted - response.offset(test, "zero"))[mask]
-        yield (
-            test.test,
-            float(np.mean(gap**2)),
-            float(np.abs(predicted[mask]).max()),
-            effective_count(gap, [slice(0, len(gap))]),
-        )
+class _Unseen(NamedTuple):
+    """square: mean square of what is left, from the test's first samples; reach: the largest prediction; worth: how
+    many independent values."""
+
+    test: str
+    square: float
+    reach: float
+    worth: float
+
+
+def _unseen(response: FittedResponse, test: TestData) -> _Unseen:
+    mask, predicted = response.mask(test), response.predict(test)
+    gap = (response.measured(test) - predicted - response.offset(test, "zero"))[mask]
+    worth = effective_count(gap, [slice(0, len(gap))])
+    return _Unseen(test.test, float(np.mean(gap**2)), float(np.abs(predicted[mask]).max()), worth)
