@@ -14,16 +14,12 @@ from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers
 from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
-from thermodata.store.ingest.told.beside_each_other import odd_clocks
 from thermodata.store.ingest.told.empty_channels import nothing_brought
-from thermodata.store.ingest.told.ends import with_pauses
-from thermodata.store.ingest.told.ends_apart import ends_apart
+from thermodata.store.ingest.told.how_logs_stand import how_logs_stand
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
-from thermodata.store.ingest.told.offset_apart import offsets_apart
 from thermodata.store.ingest.told.same_content import same_content
 from thermodata.store.ingest.told.spec_lines import with_lines
 from thermodata.store.ingest.told.unanswered import unanswered
-from thermodata.store.ingest.told.whole_hours import whole_hours
 
 NOTHING = "nothing changed: the store holds these files and this campaign file already"
 
@@ -89,7 +85,7 @@ def summarize(
             dict.fromkeys(
                 (
                     *same_content(files_of_tests, layers.files.hashes()),
-                    *_odd_ends(layers, inventory, rows),
+                    *_how_logs_stand(layers, inventory, rows),
                     *unanswered(campaign),
                     *conditions_without_unit(campaign, path),
                     *_left_out(path, files_of_tests),
@@ -113,7 +109,9 @@ def _losses(layers: Layers, notes: Mapping[str, TestNote]) -> Losses:
     ]
 
 
-def _odd_ends(layers: Layers, inventory: Inventory, of_layers: Mapping[str, Mapping[str, list[Row]]]) -> list[str]:
+def _how_logs_stand(
+    layers: Layers, inventory: Inventory, of_layers: Mapping[str, Mapping[str, list[Row]]]
+) -> list[str]:
     """of_layers: rows of the layers, of those tests that were not left alone."""
     campaign, left = layers.files.campaign, layers.left.tests
 
@@ -121,28 +119,11 @@ def _odd_ends(layers: Layers, inventory: Inventory, of_layers: Mapping[str, Mapp
         found = {**{name: own for name, own in known.items() if name in left}, **looked_at}
         return {t.id: found.get(t.id, []) for t in campaign.tests}
 
-    rows = with_pauses(
+    return how_logs_stand(
+        campaign,
         of_tests(inventory.sources, of_layers["source"]),
         of_tests(inventory.rows["quality_event"], of_layers["quality_event"]),
     )
-    declared = {t.id: t.clocks for t in campaign.tests}
-    of_all = {
-        name for name, s in campaign.sources.items() if s.clock.offset is not None or s.clock.align_to is not None
-    }
-    # what logs the displacement: another log is whole where it lasts as long as that
-    probes = {c.source for c in campaign.channels.values() if c.quantity == "displacement" and c.source}
-    apart_by_hours = whole_hours(rows, {test: of_all.union(clocks) for test, clocks in declared.items()})
-    hours = [one for one in apart_by_hours if {one.late, one.early} & probes]
-    offsets = {name: by_s for name, s in campaign.sources.items() if (by_s := s.clock.offset)}
-    dated = {
-        t.id: [{**r, "clock": "absolute"} if t.start is not None else r for r in rows[t.id]] for t in campaign.tests
-    }
-    moved = offsets_apart(dated, offsets)
-    odd = odd_clocks(rows)
-    otherwise = {test for one in odd for test in one.tests}
-    whole = {t.id: rows[t.id] for t in campaign.tests if t.window is None and t.id not in otherwise}
-    apart = [] if hours or moved else ends_apart(whole, probes)  # logs whole hours apart do not end early
-    return [*map(str, moved), *map(str, hours), *(said for one in odd for said in one.beside(declared)), *apart]
 
 
 def _left_out(path: Path, files_of_tests: Mapping[str, Sequence[str]]) -> list[str]:

@@ -21,22 +21,25 @@ MOST_S = 26 * 3600.0  # and by no more than this
 
 @dataclass(frozen=True, slots=True)
 class HoursApart:
-    """In all tests the source `late` stands shift_s (> 0) later beside `early`, a number of half hours."""
+    """In all tests the source `late` stands shift_s (> 0) later beside `early`, a number of half hours. tests: how
+    many; declared: how many more there are of whose clocks somebody has said something."""
 
     late: str
     early: str
     shift_s: float
     tests: int
+    declared: int = 0
 
     def __str__(self) -> str:
         by = f"{self.shift_s / 3600:g} h"
         late, early = f"{{offset: {-self.shift_s:.0f} s}}", f"{{offset: {self.shift_s:.0f} s}}"
+        those = "have both" + (", and in which no clock of them is declared" if self.declared else "")
         return (
-            f"source '{self.late}' begins and ends {by} later than '{self.early}' in all {self.tests} tests that have "
-            "both, though their logs are as long as each other: is a clock set to another zone, or to summer time? If "
-            "so, declare at the source whose clock is wrong its timezone (a zone without summer time such as Etc/GMT-1 "
-            f"where it knows none), or clock: {late} at '{self.late}' or clock: {early} at '{self.early}'; if both are "
-            f"right, clock: {{offset: 0 s}} at one of them"
+            f"source '{self.late}' begins and ends {by} later than '{self.early}' in all {self.tests} tests that "
+            f"{those}, though their logs are as long as each other: is a clock set to another zone, or to summer time? "
+            "If so, declare at the source whose clock is wrong its timezone (a zone without summer time such as "
+            f"Etc/GMT-1 where it knows none), or clock: {late} at '{self.late}' or clock: {early} at '{self.early}'; "
+            "if both are right, clock: {offset: 0 s} at one of them"
         )
 
 
@@ -53,5 +56,5 @@ def whole_hours(rows: Rows, declared: Declared | None = None) -> list[HoursApart
         alike = bool(np.abs(ends - shift_s).max() <= LEAST_S and np.abs(np.diff(ends, axis=1)).max() <= LEAST_S)
         if alike and 0 < abs(shift_s) <= MOST_S:
             late, early = (one, other) if shift_s > 0 else (other, one)
-            found.append(HoursApart(late, early, abs(shift_s), len(asked)))
+            found.append(HoursApart(late, early, abs(shift_s), len(asked), len(apart) - len(asked)))
     return found
