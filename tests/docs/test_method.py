@@ -16,7 +16,7 @@ PAGES = {
     "method.md": VERDICT,
     "missing_heat.md": VERDICT,
     "artefacts.md": (".",),
-    "benchmark.md": (".",),
+    "derivations.md": (".",),
     "model.md": (".",),
 }
 NAME = re.compile(r"`([A-Z][A-Z_]{3,})`")

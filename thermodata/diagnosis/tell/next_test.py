@@ -16,7 +16,7 @@ from thermodata.schema.words.sentences import counted, listed
 from thermodata.view.grid.dataset import ChannelInfo
 
 # share of machines whose one missing cause was named, by number of open tests: of the lathe, where most tests work all
-# parts (sealed seeds; docs/benchmark.md), and of 54 worlds whose tests work one source each
+# parts (sealed seeds; docs/derivations.md), and of 54 worlds whose tests work one source each
 ALL_AT_ONCE = ((3, "72 %"), (8, "86 %"), (16, "80 %"))
 ONE_EACH = ((3, "36 %"), (8, "83 %"))
 ENOUGH_TESTS = 8
