@@ -166,6 +166,32 @@ def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) ->
     assert "the claim explains it, or more" not in text
 
 
+def test_a_twin_of_the_claim_is_told_as_one_though_a_rule_fails_beside_it(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    rungs = [r.model_copy(update={"holds": False}) if r.name == "worth" else r for r in one.rungs]
+    less = {"claimed": False, "rungs": rungs, "locked_tests_asked": 0}
+    twin = one.model_copy(update={"id": "lag:T_nut", "rank": 2, **less})
+    other = one.model_copy(update={"id": "lag:T_far", "rank": 3, **less})
+    claim = one.model_copy(update={"equivalent": ["lag:T_nut"]})
+    save_diagnosis(store, model, found.model_copy(update={"candidates": [claim, twin, other]}))
+    text = client_of(lab)[0].get("/missing").text
+    rows = {name: cell for name, cell in re.findall(r'<td class="name">(lag:T_\w+)</td><td>(.*?)</td>', text)}
+    assert "these tests can’t tell it" in rows["lag:T_nut"]
+    assert "too small" not in rows["lag:T_nut"]
+    assert "too small" in rows["lag:T_far"]
+
+
+def test_pictures_come_before_the_rules_behind_them(reader: Client) -> None:
+    text = reader.get("/missing").text
+    card = re.search(r'<section class="card candidate claimed".*?</section>', text, re.S)[0]  # type: ignore[index]
+    assert card.index("Error on left-out tests") < card.index("The residual with its contribution")
+    assert card.index("foretold by the others") < card.index('class="ladder"')
+    assert re.search(r'<details class="why" open><summary>Why it is claimed', card)
+
+
 def test_what_a_claim_is_not_told_from_stands_once_in_the_headline(lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     model = store.connect().execute("select model from model").fetchone()[0]

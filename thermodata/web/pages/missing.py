@@ -46,6 +46,8 @@ RUNG_TARGET = {
     "gain": "left",
     "others": "left",
     "worth": "course",
+    "difference": "chance",
+    "probability": "chance",
 }
 STUMBLES = {
     "chance": "chance does as well",
@@ -54,6 +56,8 @@ STUMBLES = {
     "gain": "its gain differs",
     "others": "in one test only",
     "worth": "too small",
+    "difference": "one of its sensors says as much",
+    "probability": "not likely enough",
 }
 _LOOKS = 6  # that are told of one test
 _NOTHING = {
