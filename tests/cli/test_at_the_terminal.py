@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -92,6 +93,7 @@ def test_models_are_listed_with_the_one_that_is_taken_where_none_is_named(
     assert [m["model"] for m in listed if m["fitted_last"]] == [chain[-1]]
     text = say("--store", store, "models", "-c", "small").out
     assert all(model in text for model in chain)
+    assert re.search(rf"2  {chain[-1]}  version 1 \+ ", text), "a version tells what it has more"
     refused = say("--store", store, "models", "-c", "smal")
     assert refused.code == 2
     assert "did you mean 'small'" in refused.err

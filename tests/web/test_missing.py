@@ -178,7 +178,7 @@ def test_a_twin_of_the_claim_is_told_as_one_though_a_rule_fails_beside_it(lab: P
     claim = one.model_copy(update={"equivalent": ["lag:T_nut"]})
     save_diagnosis(store, model, found.model_copy(update={"candidates": [claim, twin, other]}))
     text = client_of(lab)[0].get("/missing").text
-    rows = {name: cell for name, cell in re.findall(r'<td class="name">(lag:T_\w+)</td><td>(.*?)</td>', text)}
+    rows = dict(re.findall(r'<td class="name">(lag:T_\w+)</td><td>(.*?)</td>', text))
     assert "these tests can’t tell it" in rows["lag:T_nut"]
     assert "too small" not in rows["lag:T_nut"]
     assert "too small" in rows["lag:T_far"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -40,10 +41,11 @@ def _listed(model: ModelRow) -> dict[str, Any]:
 
 
 def _text(rows: list[dict[str, Any]]) -> str:
+    known = {row["model"]: row for row in rows}
     shown = [
         {
             **row,
-            "effects": ", ".join(row["effects"]),
+            "effects": _effects(row, known.get(row["parent"])),
             "campaigns": ", ".join(row["campaigns"]),
             "responses": ", ".join(row["responses"]),
             "made": f"{row['created_at']:%Y-%m-%d %H:%M}",
@@ -56,3 +58,15 @@ def _text(rows: list[dict[str, Any]]) -> str:
     named = {"calibration_um": "calibration", "verification_um": "verification"}
     columns = [(key, named.get(key, key)) for key in (*heads, "unit", "verdict", "made", "stale", "fitted")]
     return table(shown, columns)
+
+
+def _effects(row: dict[str, Any], parent: dict[str, Any] | None) -> str:
+    """Of a version what it has more and less than the one that it came from, for a list of ten effects is cut."""
+    if parent is None or parent["name"] != row["name"] or parent["version"] == row["version"]:
+        return ", ".join(row["effects"])
+    now, before = Counter(row["terms"]), Counter(parent["terms"])
+    changes = [
+        *(f"+ {name}" for name in (now - before).elements()),
+        *(f"- {name}" for name in (before - now).elements()),
+    ]
+    return f"version {parent['version']} {' '.join(changes)}" if changes else f"those of version {parent['version']}"
