@@ -15,13 +15,14 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
+from thermodata.reader.text.clocks.table_time import time_of
 from thermodata.reader.text.clocks.time_columns import column as find_column
-from thermodata.reader.text.clocks.time_columns import find_time, time_of
+from thermodata.reader.text.clocks.time_columns import find_time
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.page.counted_from import counted_from
-from thermodata.reader.text.page.layout import period_s
+from thermodata.reader.text.page.find_groups import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.in_memory import times_of_numbers
@@ -196,10 +197,10 @@ class Table:
         # numbers are told by more rows than these
         if found is not None and not (_is_text(kind) or pt.is_date(kind) or find_parts(self.names, rows)):
             return found
-        columns, _, form, notes = time_of(said, self.names, units, rows, self.path.name)
-        self.beside, self.form = columns[1:], self.form or form
-        self.notes += notes
-        return columns[0]
+        time = time_of(said, self.names, units, rows, self.path.name)
+        self.beside, self.form = time.columns[1:], self.form or time.form
+        self.notes += time.notes
+        return time.columns[0]
 
     def _first_rows(self) -> list[list[Any]]:
         """Cells of the first rows."""
