@@ -40,7 +40,7 @@ def describe(path: Path, source: Source) -> Recording:
             "float64" if unit is not None and unit.of == n and unit.others else table.dtype(i),
             properties={
                 **table.said[i],
-                **told.properties(n),
+                **told.qualities.properties(n),
                 **({UNIT_OF: unit.of} if unit is not None and unit.column == n else {}),
             },
             held=n in told.stands,
