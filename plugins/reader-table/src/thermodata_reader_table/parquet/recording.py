@@ -16,7 +16,8 @@ from thermodata.reader.times.zone import NAT
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at, unit_in_rows
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
-from thermodata_reader_table.parquet.table import Table, damage_as_format_error
+from thermodata_reader_table.parquet.damage import damage_as_format_error
+from thermodata_reader_table.parquet.table import Table
 
 STREAM = "table"
 _ROWS = 250_000
