@@ -85,7 +85,7 @@ class _Header:
     unused: str | None
 
 
-def find(
+def find_layout(
     rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str, between: str | None = None
 ) -> Layout:
     """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`; between:

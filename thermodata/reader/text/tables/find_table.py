@@ -18,7 +18,7 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.page.group import STREAM, Group
-from thermodata.reader.text.page.layout import Layout, find
+from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
     NOT_TAKEN,
@@ -28,7 +28,7 @@ from thermodata.reader.text.preamble.begin import (
     first_times,
     unused_start,
 )
-from thermodata.reader.text.tables.head_lines import HeadLines, part
+from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.look_at_columns import look_at_columns
 from thermodata.reader.text.tables.row_series import with_series
@@ -99,13 +99,13 @@ def find_table(
     if not named_values(head):
         refuse_foreign(head, where)
     said = source.table or {}
-    whole = part(head, first, said, where)
+    whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
     lines, rows = whole, whole.rows()
     if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
         lines, rows = whole.up_to(end), rows[:end]
-    layout = find(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
     body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
