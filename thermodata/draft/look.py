@@ -15,7 +15,7 @@ from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
-from thermodata.reader.finding.preview import when
+from thermodata.reader.finding.seen import when
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical, linear_conversion

@@ -17,15 +17,8 @@ from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
-from thermodata.reader.text.rows.quality_columns import (
-    Pairs,
-    may_be_quality,
-    qualities,
-    said_of_codes,
-    said_of_values,
-    shared,
-    with_bad_rows,
-)
+from thermodata.reader.text.rows.qualities import Qualities, find_qualities
+from thermodata.reader.text.rows.quality_columns import may_be_quality
 from thermodata.reader.times.zone import NAT
 
 _MOST_ROWS, _LEAST_ROWS, _MOST_CELLS = 20_000, 2000, 400_000  # that are looked at: of a wide table fewer rows
@@ -34,19 +27,12 @@ _NO_NUMBER = "NaN"  # a cell that says it, where others say nothing
 
 @dataclass(frozen=True, slots=True)
 class Related:
-    """stands: columns whose values stand over the empty cells behind them; quality: value column -> (that of its
-    quality, whether the code 0 is good); row_quality: as quality, of whole rows whose values have one of their own too;
-    states: column of codes that are not known -> the value beside it; notes: on all."""
+    """stands: columns whose values stand over the empty cells behind them; qualities: what columns say of others;
+    notes: on all."""
 
     stands: frozenset[str] = frozenset()
-    quality: Pairs = field(default_factory=dict)
+    qualities: Qualities = field(default_factory=Qualities)
     notes: tuple[str, ...] = ()
-    row_quality: Pairs = field(default_factory=dict)
-    states: Mapping[str, str] = field(default_factory=dict)
-
-    def properties(self, name: str) -> dict[str, str]:
-        """What is said of a column: the values that it tells the quality of."""
-        return said_of_values(name, self.states, self.quality, self.row_quality)
 
 
 def rows_looked_at(columns: int) -> int:
@@ -73,7 +59,7 @@ class Relating:
                 values[name], flag = standing.over(values[name], flags.get(name), written)
                 if flag is not None:
                     flags[name] = flag
-        return values, with_bad_rows(flags, values, self.related.quality, self.related.row_quality)
+        return values, self.related.qualities.flagged(flags, values)
 
 
 def related(
@@ -100,10 +86,10 @@ def related(
     def zero_of(zero: bool | None, name: str) -> bool:
         return declared_zero(said, zero, name, where)
 
-    quality, of_rows, codes = qualities(called, zero_of, measured)
+    qualities = find_qualities(called, zero_of, measured)
     note = None
     told = _declared(said.get(KEY), list(values), beyond, where)
-    own = {name for name, _ in (*quality.values(), *of_rows.values())}
+    own = {name for name, _ in (*qualities.of_values.values(), *qualities.of_rows.values())}
     if told is None:
         seen = t_ns[t_ns != NAT]
         told = frozenset()
@@ -111,14 +97,8 @@ def related(
         backwards = seen.size > 1 and seen[-1] < seen[0]
         if told_by_cells and not backwards and any(_has_gaps(v, empty.get(name)) for name, v in head.items()):
             told, note = find_standing({name: _cells(v, empty.get(name)) for name, v in head.items()})
-    told |= {own for value, (own, _) in quality.items() if value in told}
-    return Related(
-        told,
-        quality,
-        tuple(n for n in (note, *shared({**quality, **of_rows}), *said_of_codes(called, codes, quality, of_rows)) if n),
-        of_rows,
-        codes,
-    )
+    told |= {own for value, (own, _) in qualities.of_values.items() if value in told}
+    return Related(told, qualities, tuple(n for n in (note, *qualities.notes(called)) if n))
 
 
 def unit_in_rows(values: Mapping[str, Array], units: Mapping[str, str | None]) -> tuple[UnitColumn | None, str | None]:

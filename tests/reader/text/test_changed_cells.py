@@ -178,7 +178,7 @@ def test_numbers_with_fractions_are_no_quality_and_a_unit_may_be_spelled_twice(t
     path = tmp_path / "a.csv"
     rows = [f"2026-03-01T08:00:{k:02}Z;{30 + k};0.9{k:02}" for k in range(60)]
     path.write_text("\n".join(["time;Oil;Oil quality", *rows, ""]), encoding="utf-8")
-    assert not delimited.open_table(path, Source()).quality
+    assert not delimited.open_table(path, Source()).qualities.of_values
     rows = [f"2026-03-01T08:00:{k:02}Z;{'C' if k < 30 else '°C'};{30 + k}" for k in range(60)]
     path.write_text("\n".join(["time;Unit;Value", *rows, ""]), encoding="utf-8")
     assert read(path, Source())[2] == 60

@@ -6,7 +6,7 @@ import csv
 
 import pytest
 
-from thermodata.reader.text.page.layout import Layout, find
+from thermodata.reader.text.page.layout import Layout, find_layout
 
 GRAPHTEC = """\
 "Vendor","GRAPHTEC Corporation"
@@ -31,7 +31,7 @@ HIOKI = """\
 
 def table(head: str, row: str) -> Layout:
     rows = [row.format(i=i, at=f"{i // 60:02d}:{i % 60:02d}") for i in range(40)]
-    return find(list(csv.reader([*head.splitlines(), *rows])), None, "here")
+    return find_layout(list(csv.reader([*head.splitlines(), *rows])), None, "here")
 
 
 def said(found: Layout) -> dict[str, str]:

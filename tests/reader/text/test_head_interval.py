@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.page.layout import find
+from thermodata.reader.text.page.layout import find_layout
 
 ROWS = [[str(k), f"{21 + k / 10:.1f}", "0.5"] for k in range(1, 40)]
 HEAD = [["Scan", "T front", "dZ"]]
@@ -24,22 +24,22 @@ HEAD = [["Scan", "T front", "dZ"]]
 )
 def test_an_interval_above_the_rows_is_proposed(line: list[str], period: str) -> None:
     with pytest.raises(QuestionError) as asked:
-        find([["Logger XY"], line, *HEAD, *ROWS], None, "here")
+        find_layout([["Logger XY"], line, *HEAD, *ROWS], None, "here")
     assert asked.value.declare == {"time": {"period": period}}
     assert "above them says" in asked.value.ask
-    assert find([["Logger XY"], line, *HEAD, *ROWS], asked.value.declare, "here").groups[0].counted
+    assert find_layout([["Logger XY"], line, *HEAD, *ROWS], asked.value.declare, "here").groups[0].counted
 
 
 @pytest.mark.parametrize("line", [["Spindle speed: 2 s"], ["Sample interval: auto"], ["Cycle: 2 s"], ["Interval: 0 s"]])
 def test_what_says_no_interval_leaves_the_question_open(line: list[str]) -> None:
     with pytest.raises(QuestionError) as asked:
-        find([["Logger XY"], line, *HEAD, *ROWS], None, "here")
+        find_layout([["Logger XY"], line, *HEAD, *ROWS], None, "here")
     assert asked.value.declare == {"time": {"period": "unknown"}}
 
 
 def _notes(line: str, step: float, said: dict[str, object] | None = None, unit: str = "s") -> list[str]:
     rows = [[f"{k * step:g}", f"{21 + k / 10:.1f}", "0.5"] for k in range(40)]
-    layout = find([[line], [f"Time [{unit}]", "T front", "dZ"], *rows], {"time": said} if said else None, "here")
+    layout = find_layout([[line], [f"Time [{unit}]", "T front", "dZ"], *rows], {"time": said} if said else None, "here")
     return [note for note in layout.notes if "which one is it?" in note]
 
 

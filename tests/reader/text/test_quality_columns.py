@@ -11,7 +11,8 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
-from thermodata.reader.text.rows.quality_columns import bad_rows, qualities, quality_pairs, states, worded
+from thermodata.reader.text.rows.qualities import find_qualities
+from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, states, worded
 
 
 @pytest.mark.parametrize(
@@ -173,8 +174,9 @@ def test_a_column_with_a_unit_tells_no_faults() -> None:
 @pytest.mark.parametrize(("other", "words"), [("T1_Quality", ["good", "bad"]), ("T1_Status", ["0", "3"])])
 def test_faults_and_a_quality_of_one_value_both_count(other: str, words: list[str]) -> None:
     columns = {"T1": ["20"], "T1_Err": ["0", "0", "8"], other: words}
-    first, second, codes = qualities(columns, lambda zero, name: zero)
-    assert sorted(own for each in (first, second) for own, _ in each.values()) + sorted(codes) == ["T1_Err", other]
+    found = find_qualities(columns, lambda zero, name: zero)
+    told = sorted(own for each in (found.of_values, found.of_rows) for own, _ in each.values())
+    assert told + sorted(found.states) == ["T1_Err", other]
 
 
 def test_a_state_in_codes_that_are_not_known_is_told() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.page.layout import find
+from thermodata.reader.text.page.layout import find_layout
 
 HEAD = """\
 "testo 176 T4";;;
@@ -26,7 +26,7 @@ def _rows(first: int = 1) -> list[str]:
 @pytest.mark.parametrize("colon", [":", ""])
 def test_names_stand_below_the_statistics(colon: str) -> None:
     lines = [*HEAD.format(c=colon).split("\n"), *_rows()]
-    found = find([line.split(";") for line in lines], None, "here")
+    found = find_layout([line.split(";") for line in lines], None, "here")
     assert found.names == ("id", "Datum / Zeit", "Spindel [°C]", "Halle [%rF]")
     assert found.units[2:] == ("°C", "%rF")
     assert found.first == 10
@@ -35,4 +35,4 @@ def test_names_stand_below_the_statistics(colon: str) -> None:
 @pytest.mark.parametrize("torn", ["x1;02.03.2026 08:00:00;20,0;40,0", "#;02.03.2026 08:00:00;20,0;40,0"])
 def test_a_first_row_with_a_damaged_number_is_data(torn: str) -> None:
     lines = ["id;Datum / Zeit;Spindel [°C];Halle [%rF]", torn, *_rows()]
-    assert find([line.split(";") for line in lines], None, "here").first == 1
+    assert find_layout([line.split(";") for line in lines], None, "here").first == 1

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.clocks.time_columns import find_time, time_of
+from thermodata.reader.text.clocks.table_time import time_of
+from thermodata.reader.text.clocks.time_columns import find_time
 
 LOCAL = [f"2026-03-02 08:{m:02d}:00" for m in range(40)]
 UTC = [f"2026-03-02 07:{m:02d}:00" for m in range(40)]
@@ -37,7 +38,7 @@ def test_a_time_in_utc_beside_a_local_one_is_the_time(
 ) -> None:
     data = [[*pair, "21.5"] for pair in zip(*stamps, strict=True)]
     assert find_time([*names, "T"], [None] * 3, data, "here") == (column,)
-    notes = time_of({}, [*names, "T"], [None] * 3, data, "here")[3]
+    notes = time_of({}, [*names, "T"], [None] * 3, data, "here").notes
     same = {"Local time", "UTC time"} == {*names} or column == 1
     assert any("is not used" in note for note in notes) is same
     if same:
@@ -46,5 +47,5 @@ def test_a_time_in_utc_beside_a_local_one_is_the_time(
 
 def test_a_declared_time_is_taken_without_a_word() -> None:
     data = [[*pair, "21.5"] for pair in zip(LOCAL, ZONED, strict=True)]
-    columns, _, _, notes = time_of({"column": 1}, ["Time", "Time 2", "T"], [None] * 3, data, "here")
-    assert (columns, notes) == ((0,), [])
+    time = time_of({"column": 1}, ["Time", "Time 2", "T"], [None] * 3, data, "here")
+    assert (time.columns, time.notes) == ((0,), ())

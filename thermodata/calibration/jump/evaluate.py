@@ -7,7 +7,7 @@ position on the plateau's voltage (the position carries the larger error), with 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -25,8 +25,7 @@ from thermodata.schema.words.sentences import counted
 
 _LEAST_SAMPLES = 20
 _LEAST_ON_RAIL = 0.05  # of a jump test's samples
-
-
+_LEAST_AT_REST = 3  # samples of a plateau
 _AS_LARGE = 0.7  # of the smallest commanded move: a step that may be one of them
 
 
@@ -49,31 +48,15 @@ def evaluate_jump(
     found otherwise, can be read with either sign, or the sign contradicts `facing` with `increases_with`. Weaknesses
     that don't forbid use are rows of `checks`.
     """
-    where = f"calibrations.{name}"
     axis = facing_axis(name, spec.facing, spec.axis)
     moves = _checked_moves(name, spec)
-    probes = dict(others or {})
-    t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), probes)
+    t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), dict(others or {}))
     steps, match = _matched(t_s, v, moves, spec.dwell)
     if match is None:
         raise _on_rail(name, spec, v, unit) or _not_found(name, spec, moves, steps, t_s, probes)
-    if match.rivals:
-        raise CalibrationError(
-            f"jump test '{name}': the moves can be read with either sign",
-            where=where,
-            expected=f"one place for the moves {moves} um among {len(steps)} steps",
-            got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
-            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
-        )
+    _refuse_either_sign(name, match, moves, len(steps), unit)
     dwells = plateaus(t_s, v, match, steps, spec.dwell)
-    if any(p.n < 3 or not np.isfinite(p.mean) for p in dwells):
-        raise CalibrationError(
-            f"jump test '{name}': a plateau with under 3 samples",
-            where=where,
-            expected="at least 3 samples a plateau",
-            got=f"{min(p.n for p in dwells)}",
-            hint="dwell longer or sample faster",
-        )
+    _refuse_short(name, dwells)
     levels = np.concatenate([[0.0], np.cumsum(moves)])
     fit = fit_plateaus(dwells, levels, spec.move_uncertainty)
     _agrees_with_facing(name, spec, fit.gain, unit)
@@ -104,6 +87,30 @@ def evaluate_jump(
     )
 
 
+def _refuse_either_sign(name: str, match: Match, moves: list[float], steps: int, unit: str) -> None:
+    """CalibrationError where the moves fit the steps at two places, with another sign at each."""
+    if match.rivals:
+        raise CalibrationError(
+            f"jump test '{name}': the moves can be read with either sign",
+            where=f"calibrations.{name}",
+            expected=f"one place for the moves {moves} um among {steps} steps",
+            got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
+            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
+        )
+
+
+def _refuse_short(name: str, dwells: Sequence[Plateau]) -> None:
+    """CalibrationError where a plateau has too few samples for a mean and its scatter."""
+    if any(p.n < _LEAST_AT_REST or not np.isfinite(p.mean) for p in dwells):
+        raise CalibrationError(
+            f"jump test '{name}': a plateau with under {_LEAST_AT_REST} samples",
+            where=f"calibrations.{name}",
+            expected=f"at least {_LEAST_AT_REST} samples a plateau",
+            got=f"{min(p.n for p in dwells)}",
+            hint="dwell longer or sample faster",
+        )
+
+
 def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tuple[list[Step], Match | None]:
     """(steps, those that are the moves); a staircase that goes much faster than declared is looked for too."""
     steps, _ = find_steps(t_s, v, dwell_s)
@@ -123,6 +130,7 @@ def _beside(steps: list[Step], match: Match) -> int:
 
 
 def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
+    """The declared moves [um]; CalibrationError where they, the dwell or the uncertainty can't be those of a test."""
     moves = [float(m) for m in spec.moves] if isinstance(spec.moves, list) else []
     wrong = not moves or any(m == 0 or not np.isfinite(m) for m in moves)
     if wrong or not spec.dwell > 0 or spec.move_uncertainty < 0:
@@ -194,6 +202,7 @@ def _on_rail(name: str, spec: JumpCalibration, v: Float1D, unit: str) -> RailErr
 def _not_found(
     name: str, spec: JumpCalibration, moves: list[float], steps: list[Step], t_s: Float1D, probes: Mapping[str, Float1D]
 ) -> CalibrationError:
+    """The error of moves that no steps answer, with the other probes that show them: their cables may be swapped."""
     answering = []
     for other, x in probes.items():
         fine = _is_reading(x)
@@ -216,6 +225,7 @@ def _not_found(
 
 
 def _agrees_with_facing(name: str, spec: JumpCalibration, gain: float, unit: str) -> None:
+    """CalibrationError where the sign is not that of a probe which looks as it is declared. gain: [um/unit]."""
     if spec.facing is None or spec.increases_with is None:
         return
     sign = geometric_sign(spec.facing, spec.increases_with)
@@ -241,6 +251,7 @@ def _crosstalk(
 
 
 def _row(p: Plateau, level: float, rest: float) -> dict[str, float | int]:
+    """A plateau as the answer tells it. level: the commanded position [um]; rest: what the regression leaves [um]."""
     return {
         "from_s": p.from_s,
         "to_s": p.to_s,

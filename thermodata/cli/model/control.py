@@ -10,6 +10,7 @@ import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.pairs import name_and_value
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.text.table import fields
@@ -91,7 +92,7 @@ def model_command(
     loaded = load(store, resolve(store, model))
     stale = stale_line(store, loaded.identity)
     left_out = tuple(n.strip() for n in without.split(",") if n.strip())
-    gains_of = dict(_pair(text) for text in groups)
+    gains_of = dict(name_and_value(text, "a group", "EFFECT=VALUE, for example spindle_bearing=SP2") for text in groups)
     asked = Asked(cycle, response, name, left_out, gains_of, limit, rate, hold, loaded.fitted_to, stale)
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
@@ -160,10 +161,3 @@ def _refuse_to_replace(paths: Sequence[Path], force: bool) -> None:
         raise UsageError(
             "the file exists", where=", ".join(there), hint="--force replaces it, --out DIR writes elsewhere"
         )
-
-
-def _pair(text: str) -> tuple[str, str]:
-    name, found, value = text.partition("=")
-    if not found or not name.strip():
-        raise UsageError("a group", expected="EFFECT=VALUE, for example spindle_bearing=SP2", got=text)
-    return name.strip(), value.strip()

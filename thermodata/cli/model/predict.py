@@ -10,8 +10,8 @@ import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.pairs import name_and_value
 from thermodata.cli.terminal.stored_model import resolve
-from thermodata.errors import UsageError
 from thermodata.report.text.band import band_text, elsewhere_text
 from thermodata.report.text.table import table
 from thermodata.report.words.glossary import PREDICTED_LEVEL
@@ -66,7 +66,7 @@ def predict_command(
     """
     from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.known.to_predict import predictions_of
-    from thermodata.export.series import as_table, check_out, write_table
+    from thermodata.export.series import check_out, write_table
     from thermodata.modelling.compare.ahead import ahead
     from thermodata.modelling.predictions.beyond import beyond
     from thermodata.modelling.predictions.carried_on import said
@@ -78,7 +78,7 @@ def predict_command(
     store = session.store()
     loaded = load(store, resolve(store, model), uncertainty=True)
     band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
-    given = dict(_pair(c) for c in conditions)
+    given = dict(map(_condition, conditions))
     with progress_line() as line:
         made, left_out = predictions_of(
             store, loaded.fitted, target, session.say, line, tests, lambda data: under(data, given)
@@ -88,12 +88,10 @@ def predict_command(
         session.say(f"left out: {reason}")
     if made and out is not None and kind is not None:
         write_table(made, out, kind)
+    exit_code = 3 if left_out else 0
     if as_csv and not session.as_json:
-        import pyarrow.csv
-
-        if made:
-            pyarrow.csv.write_csv(as_table(made, unit_in_names=True), sys.stdout.buffer)
-        return 3 if left_out else 0
+        _print_csv(made)
+        return exit_code
     rows = [_row(p) for p in made]
     further = beyond(loaded.fitted, loaded.data, made)
     held = list(dict.fromkeys(one for p in made for one in p.held))
@@ -103,10 +101,7 @@ def predict_command(
         "name": loaded.fitted.spec.name,
         "step_s": loaded.data.step_s,
         "file": None if out is None or not made else str(out),
-        "tests": [
-            {**row, "t_s": p.t_s, "predicted": p.predicted, "predicted_low": p.ends[0], "predicted_high": p.ends[1]}
-            for row, p in zip(rows, made, strict=True)
-        ],
+        "tests": [{**row, **_course(p)} for row, p in zip(rows, made, strict=True)],
         "left_out": left_out,
         "beyond": further,
         "held": held,
@@ -115,10 +110,27 @@ def predict_command(
         "stale": stale_line(store, loaded.identity),
     }
     session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band, made)], out))
-    return 3 if left_out else 0
+    return exit_code
+
+
+def _print_csv(made: list[Predicted]) -> None:
+    """The course of every test; nothing where there is none."""
+    import pyarrow.csv
+
+    from thermodata.export.series import as_table
+
+    if made:
+        pyarrow.csv.write_csv(as_table(made, unit_in_names=True), sys.stdout.buffer)
+
+
+def _course(p: Predicted) -> dict[str, Any]:
+    """The predicted course as arrays of shape (n,), in the unit of the response; t_s: where each step begins [s]."""
+    return {"t_s": p.t_s, "predicted": p.predicted, "predicted_low": p.ends[0], "predicted_high": p.ends[1]}
 
 
 def _row(p: Predicted) -> dict[str, Any]:
+    """A line of the answer: low, high, end, rmse and half_95 (the widest half band) in the unit of the response; known:
+    the share of steps whose drivers are."""
     known = p.predicted[p.known]
     return {
         "campaign": p.campaign,
@@ -174,11 +186,10 @@ def _beyond(one: Beyond) -> str:
     return f"{one.test}: {one.effect}{drivers} goes to {number(one.reaches)} {one.unit}, in these tests {most}"
 
 
-def _pair(text: str) -> tuple[str, str | float]:
-    name, found, value = text.partition("=")
-    if not found or not name.strip():
-        raise UsageError("a condition", expected="NAME=VALUE, for example spindle=SP2", got=text)
+def _condition(text: str) -> tuple[str, str | float]:
+    """'spindle=SP2' or 'coolant_l_min=12', whose value is a number."""
+    name, value = name_and_value(text, "a condition", "NAME=VALUE, for example spindle=SP2")
     try:
-        return name.strip(), float(value)
+        return name, float(value)
     except ValueError:
-        return name.strip(), value.strip()
+        return name, value

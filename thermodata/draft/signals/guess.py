@@ -7,11 +7,12 @@ disagree on, and what none of them says, becomes a question. A quantity is never
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from thermodata.draft.signals import bracket_at_end, units
-from thermodata.draft.signals.doubted_units import MOST_OF_ONE, SHARED, doubted, hottest_c, implausible, is_fired
+from thermodata.draft.signals.doubted_units import doubted, implausible
+from thermodata.draft.signals.implied_unit import with_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
@@ -26,7 +27,7 @@ from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.schema.units.letters import encoding_hint
-from thermodata.schema.units.quantity import is_unit, normal_unit
+from thermodata.schema.units.quantity import is_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
@@ -34,17 +35,6 @@ _OF_ROWS = re.compile(r"__index_level_\d+__|Unnamed: 0")  # what pandas calls it
 _OF_ITSELF = re.compile(r"\$RT_[A-Z]+\$")  # what WinCC puts between the rows of its tags: $RT_OFF$, $RT_DIS$
 SENSOR = "sensor"  # the property of a signal whose file is that of one sensor, by which it is called
 NUMBERED = re.compile(r"column \d+(?:#\d+)?")
-_IMPLIED = {
-    "temperature": "degC",
-    "rotational_speed": "rpm",
-    "position": "mm",
-    "load": "%",
-    "humidity": "%",
-    "current": "A",
-    "torque": "N m",
-    "voltage": "V",
-}
-_COLDEST_K = 250.0  # of a machine and its hall; 235 is 23.5 degC in tenths
 _STATUS = re.compile(
     r"(?i)(data ?|sensor ?|mess)?(status|quality|qualität|zustand|stav|état|estado|stato|validity|gültig)"
 )
@@ -54,16 +44,6 @@ _ASK_STATUS = (
 )
 _SMALL_MM = 5.0  # an axis travels further than a tool is displaced
 _RATES = ("feed", "flow", "rotational_speed")
-_PLAUSIBLE = {
-    "temperature": (-40.0, 200.0),
-    "rotational_speed": (-60_000.0, 60_000.0),
-    "position": (-30_000.0, 30_000.0),
-    "load": (-400.0, 400.0),
-    "humidity": (0.0, 100.0),
-    "current": (-1000.0, 1000.0),
-    "torque": (-5000.0, 5000.0),
-    "voltage": (-1000.0, 1000.0),
-}
 
 
 def says_nothing(name: str) -> bool:
@@ -105,38 +85,22 @@ def guess(
         return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
         return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
-    if NUMBERED.fullmatch(parts_of(name)[-1]):
-        name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
-    bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
-    bare = "/".join(without_amplifier(part) for part in parts_of(bare))
-    own, text, told = words(_last(bare)), words(bare), words(described)
-    ends = dict.fromkeys(
-        (_last(bare), _field(bare), _last(units.without_value(bare)), units.without_labels(_last(bare)))
-    )
-    written = (
-        (
-            _in_brackets(name)
-            or rate
-            or next(filter(None, map(units.from_name, ends)), None)
-            or units.inches(_last(name))
-        )
-        if not unit
-        else None
-    )
-    field = words(_field(bare))
+    said = _Name.of(name)
+    own, text, told = words(said.last), words(said.bare), words(described)
+    field = words(said.field)
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
-    if field == "temps" and _field(bare) != bare and not unit:
+    if field == "temps" and said.field != said.bare and not unit:
         what = own = "temperature"  # the time of a message is no field of it called in French
-    if not unit and not written:
-        by_name = quantity_of(what, text, None, dtype, values)
-        quantity = by_name.quantity if "name" in by_name.basis else None
-        written = next(filter(None, (beside(end, quantity, values) for end in ends)), None)
-        written = written or bracket_at_end.of_quantity(_last(name), quantity)
+
+    def of_quantity(known: str | None) -> Guess:
+        return quantity_of(what, text, known, dtype, values)
+
+    written = None if unit else said.unit() or _unit_of_quantity(said, of_quantity(None), values)
     known = unit or written
-    counts = units.counts_or_range(_last(name)) if not known else None
+    counts = units.counts_or_range(said.whole_last) if not known else None
     if counts or (known and not is_unit(known)):
-        found = quantity_of(what, text, None, dtype, values)
+        found = of_quantity(None)
         if _digital(dtype, values):
             return placed(found, own, text, told)
         asked = f"{encoding_hint(known or '')}the file says '{known}', which is no unit known here"
@@ -146,27 +110,84 @@ def guess(
             why = found.why_not if found.quantity is None and foreign_in(what) else f"quantity and unit? {asked}"
             return Guess(None, why_not=why)
         return replace(placed(replace(found, unit=None), own, text, told), sure=False, questions=(f"unit: {asked}",))
-    found = quantity_of(what, text, known, dtype, values)
-    if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(_last(bare).strip()):
+    found = of_quantity(known)
+    if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(said.last.strip()):
         return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None or found.quantity == "label":
         return found
     if found.quantity in _RATES:
-        own = words(units.without_rate(_last(bare), known))
-    found = _small(placed(_unit(found, text, unit, written, values), own, text, told), own, values)
-    inch = next(filter(None, (inch_asked(e, found.quantity, values) for e in (_last(name), *ends))), None)
-    if inch and found.unit == written == "in":
-        found = replace(found, sure=False, questions=(*found.questions, inch))
-    if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):
-        asked = f"unit: the name ends with '{end}': {found.unit or 'what'}, or another quantity? ({range_text(values)})"
-        found = replace(found, sure=False, questions=(*found.questions, asked))
-    if not known and (said := bracket_at_end.unknown(_last(name), found.quantity)):
-        asked = f"unit: the name says '{said}', which is no unit of this known here ({range_text(values)})"
-        found = replace(found, unit=None, sure=False, instead_of=None, questions=(*found.questions, asked))
-    found = with_factor_asked(found, _last(name))
+        own = words(units.without_rate(said.last, known))
+    found = _small(placed(with_unit(found, text, unit, written, values), own, text, told), own, values)
+    found = _asked_by_name(found, said, unit, written, values)
     if values is None:
         return found
-    return implausible(found, text, values) if known else doubted(found, bare, values)
+    return implausible(found, text, values) if known else doubted(found, said.bare, values)
+
+
+@dataclass(frozen=True, slots=True)
+class _Name:
+    """A signal's name taken apart. whole: as it was given, '' for the reader's own name of a column without one; bare:
+    without its unit and its amplifier; rate: a unit with a stroke at its end; ends: what a unit may stand at the end
+    of."""
+
+    whole: str
+    bare: str
+    rate: str | None
+    ends: tuple[str, ...]
+
+    @classmethod
+    def of(cls, name: str) -> _Name:
+        if NUMBERED.fullmatch(parts_of(name)[-1]):
+            # what a reader calls a column that has no name says nothing: 'column 7' is no machine's column
+            name = ""
+        bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
+        bare = "/".join(without_amplifier(part) for part in parts_of(bare))
+        last = _last(bare)
+        ends = (last, _field(bare), _last(units.without_value(bare)), units.without_labels(last))
+        return cls(name, bare, rate, tuple(dict.fromkeys(ends)))
+
+    @property
+    def last(self) -> str:
+        return _last(self.bare)
+
+    @property
+    def field(self) -> str:
+        return _field(self.bare)
+
+    @property
+    def whole_last(self) -> str:
+        """The last part with its unit."""
+        return _last(self.whole)
+
+    def unit(self) -> str | None:
+        """The unit that stands in it, whatever the quantity is."""
+        at_end = next(filter(None, map(units.from_name, self.ends)), None)
+        return _in_brackets(self.whole) or self.rate or at_end or units.inches(self.whole_last)
+
+
+def _unit_of_quantity(name: _Name, found: Guess, values: Values | None) -> str | None:
+    """The unit that a name has where its quantity tells that it is one. found: by the name without a unit."""
+    quantity = found.quantity if "name" in found.basis else None
+    at_end = next(filter(None, (beside(end, quantity, values) for end in name.ends)), None)
+    return at_end or bracket_at_end.of_quantity(name.whole_last, quantity)
+
+
+def _asked_by_name(found: Guess, name: _Name, unit: str | None, written: str | None, values: Values | None) -> Guess:
+    """With the questions that the end of a name leaves open: an inch, a unit of something else, one that is not known,
+    a factor."""
+    ends = (name.whole_last, *name.ends)
+    inch = next(filter(None, (inch_asked(e, found.quantity, values) for e in ends)), None)
+    if inch and found.unit == written == "in":
+        found = replace(found, sure=False, questions=(*found.questions, inch))
+    if not (unit or written):
+        if end := next(filter(None, (strange(e, found.quantity) for e in name.ends)), None):
+            guessed = f"{found.unit or 'what'}, or another quantity? ({range_text(values)})"
+            asked = f"unit: the name ends with '{end}': {guessed}"
+            found = replace(found, sure=False, questions=(*found.questions, asked))
+        if said := bracket_at_end.unknown(name.whole_last, found.quantity):
+            asked = f"unit: the name says '{said}', which is no unit of this known here ({range_text(values)})"
+            found = replace(found, unit=None, sure=False, instead_of=None, questions=(*found.questions, asked))
+    return with_factor_asked(found, name.whole_last)
 
 
 def _in_brackets(name: str) -> str | None:
@@ -200,73 +221,3 @@ def _field(name: str) -> str:
 
 def _digital(dtype: str, values: Values | None) -> bool:
     return dtype in ("bool", "str") or (values is not None and values.switch)
-
-
-def _unit(found: Guess, text: str, unit: str | None, written: str | None, values: Values | None) -> Guess:
-    """The unit as it would be written; a question where nothing says it."""
-    quantity = found.quantity or ""
-    if quantity in ("state", "label"):
-        return replace(found, unit=None)
-    if unit is not None and normal_unit(unit) != "dimensionless":
-        return _in_range(replace(found, unit=unit), text, values)
-    if written is not None:
-        basis = ("name",) if found.basis == ("name", "unit") else found.basis
-        return _in_range(replace(found, unit=written, basis=basis), text, values)
-    if unit is not None and quantity in SHARED:
-        return _share(found, unit, values)
-    if quantity in SHARED and values is not None and _may_be_of_one(values):
-        asked = f'unit: "%", or is 1 100 %? then unit: pu ({range_text(values)})'
-        return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
-    implied = _IMPLIED.get(quantity)
-    if implied and values is not None and _plausible(quantity, values):
-        basis = found.basis if "values" in found.basis else (*found.basis, "values")
-        # the file says '-' or '1', which an ingest would hold against the unit
-        return replace(found, unit=implied, sure=False, basis=basis, instead_of=unit)
-    in_kelvins = quantity == "temperature" and values is not None and values.low > _COLDEST_K and values.high < 450
-    if in_kelvins and values is not None and not is_fired(text):
-        if values.whole:
-            asked = f"unit: K, or tenths of a degree (0.1 degC)? ({range_text(values)})"
-            return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
-        return replace(found, unit="K", sure=False, basis=(*found.basis, "values"), instead_of=unit)
-    if implied and values is None and quantity in ("temperature", "rotational_speed"):
-        asked = f"unit: {implied}?"
-        return replace(found, unit=implied, sure=False, questions=(*found.questions, asked), instead_of=unit)
-    hint = {
-        "displacement": "um, mm, m or V?",
-        "feed": "m/min or mm/min?",
-        "power": "kW, W or hp?",
-        "pressure": "bar or MPa?",
-        "flow": "l/min?",
-        "irradiance": "W/m2?",
-    }.get(quantity, "")
-    asked = f"unit: {hint} ({range_text(values)})" if hint else f"unit? ({range_text(values)})"
-    return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
-
-
-def _share(found: Guess, unit: str, values: Values | None) -> Guess:
-    """A load or a humidity whose file says '-' or '1': of 1, where it stays below, or else of 100."""
-    if values is not None and values.high > MOST_OF_ONE:
-        basis = (*found.basis, "values")
-        return replace(found, unit="%", instead_of=unit, sure=False, basis=basis)
-    asked = f'unit: the file says \'{unit}\', so 1 is read as 100 %; if 1 is 1 %: unit: "%", instead_of: "{unit}"'
-    return replace(found, unit=unit, sure=False, questions=(*found.questions, f"{asked} ({range_text(values)})"))
-
-
-def _may_be_of_one(values: Values) -> bool:
-    """Whether a share without a unit stays so low that it may count from 0 to 1; whole numbers are per cent."""
-    return not values.constant and not values.whole and max(-values.low, values.high) <= MOST_OF_ONE
-
-
-def _plausible(quantity: str, values: Values) -> bool:
-    low, high = _PLAUSIBLE[quantity]
-    return values.low >= low and values.high <= high and not (quantity == "temperature" and values.switch)
-
-
-def _in_range(found: Guess, text: str, values: Values | None) -> Guess:
-    """A question where the values cannot be that: a temperature of 4000 degC is counts of a converter, or a broken
-    sensor."""
-    if values is None or found.quantity != "temperature" or normal_unit(found.unit or "") != "degC":
-        return found
-    if values.median > hottest_c(text) or values.median < -100:
-        return replace(found, sure=False, questions=(*found.questions, f"values {values.span()}: raw counts, or K?"))
-    return found

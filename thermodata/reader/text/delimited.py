@@ -26,7 +26,6 @@ from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.preamble.ways_said import WAY, ways_said
 from thermodata.reader.text.rows.event_line import event_notes
 from thermodata.reader.text.rows.footer import footer_notes
-from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
@@ -77,8 +76,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
 def _said_of(table: Table, column: int, heads: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
     """heads: what lines above the names say of units and of scales."""
     name = table.layout.names[column]
-    of_values = said_of_values(name, table.states, table.quality, table.row_quality)
-    return {**table.layout.said_of(column), **of_values, **heads.get(name, {})}
+    return {**table.layout.said_of(column), **table.qualities.properties(name), **heads.get(name, {})}
 
 
 def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:

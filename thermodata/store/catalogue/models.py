@@ -54,63 +54,61 @@ def save_fit(
     The same model again replaces its figures and keeps its place in the history. Prediction columns: t_s,
     measured, predicted, residual, valid, and `c__<term>` for each effect's contribution.
     """
-    now = utc_now()
+    model, now = result.model, utc_now()
     written = [
-        (key, write_prediction(store.path, result.model, key, table), table.num_rows)
+        (key, write_prediction(store.path, model, key, table), table.num_rows)
         for key, table in sorted(predictions.items())
     ]
-    response = result.response if isinstance(result.response, str) else ", ".join(result.response)
     with store.write() as con:
         check(con)
-        old = fetch(con, "select parent, created_at from model where model = ?", [result.model])
-        for table in ("fit", "score_row", "prediction"):
-            con.execute(f"delete from {table} where model = ?", [result.model])
-        con.execute("delete from model where model = ?", [result.model])
-        con.execute("delete from finding where model = ? and kind = ?", [result.model, STALE])
-        insert(
-            con,
-            "model",
-            [
-                {
-                    "model": result.model,
-                    "name": result.name,
-                    "parent": parent if parent is not None or not old else old[0]["parent"],
-                    "campaigns": list(result.campaigns),
-                    "response": response,
-                    "spec": spec.model_dump_json(by_alias=True, exclude_none=True),
-                    "data_version": data_version,
-                    "stale": False,
-                    "created_at": old[0]["created_at"] if old else now,
-                    "result": result.model_dump_json(),
-                }
-            ],
-        )
-        insert(
-            con,
-            "fit",
-            [
-                {
-                    "model": result.model,
-                    "response": response if isinstance(result.response, str) else None,
-                    "parameter": name,
-                    "value": p.value,
-                    "unit": p.unit,
-                    "low": p.low,
-                    "high": p.high,
-                }
-                for name, p in result.parameters.items()
-            ],
-        )
-        insert(con, "score_row", [{**s.model_dump(), "model": result.model} for s in result.scores])
-        insert(
-            con,
-            "prediction",
-            [
-                {"campaign": c, "test": t, "model": result.model, "response": r, "path": path, "rows": rows}
-                for (c, t, r), path, rows in written
-            ],
-        )
-    return result.model
+        old = fetch(con, "select parent, created_at from model where model = ?", [model])
+        _drop(con, model)
+        row = {
+            "model": model,
+            "name": result.name,
+            "parent": parent if parent is not None or not old else old[0]["parent"],
+            "campaigns": list(result.campaigns),
+            "response": result.response if isinstance(result.response, str) else ", ".join(result.response),
+            "spec": spec.model_dump_json(by_alias=True, exclude_none=True),
+            "data_version": data_version,
+            "stale": False,
+            "created_at": old[0]["created_at"] if old else now,
+            "result": result.model_dump_json(),
+        }
+        insert(con, "model", [row])
+        insert(con, "fit", _parameters(result))
+        insert(con, "score_row", [{**s.model_dump(), "model": model} for s in result.scores])
+        files = [
+            {"campaign": c, "test": t, "model": model, "response": r, "path": path, "rows": rows}
+            for (c, t, r), path, rows in written
+        ]
+        insert(con, "prediction", files)
+    return model
+
+
+def _drop(con: duckdb.DuckDBPyConnection, model: str) -> None:
+    """The rows of a model's last fit; what was found out about it stays, but for what is stale."""
+    for table in ("fit", "score_row", "prediction"):
+        con.execute(f"delete from {table} where model = ?", [model])
+    con.execute("delete from model where model = ?", [model])
+    con.execute("delete from finding where model = ? and kind = ?", [model, STALE])
+
+
+def _parameters(result: FitResult) -> list[dict[str, object]]:
+    """Rows of `fit`. response: None where the model has several."""
+    response = result.response if isinstance(result.response, str) else None
+    return [
+        {
+            "model": result.model,
+            "response": response,
+            "parameter": name,
+            "value": p.value,
+            "unit": p.unit,
+            "low": p.low,
+            "high": p.high,
+        }
+        for name, p in result.parameters.items()
+    ]
 
 
 def find_model(store: Store, ref: str) -> StoredModel:

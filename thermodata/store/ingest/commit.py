@@ -108,40 +108,49 @@ def commit(
     stay = differing["file"] & before & after
     keep_looks_at_changed(con, campaign, planned.rows, stay)
     for table in BY_TEST:
-        gone = set(differing[table])
-        if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
-            # it keeps the order of the campaign file, so all of its rows are written again
-            gone = {*planned.rows[table], *inventory.rows[table]}
-        if gone:
-            con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
-        insert(con, table, [row for t, rows in planned.rows[table].items() if t in gone for row in rows])
+        _replace_rows(con, table, planned, inventory, differing[table])
     con.execute(
         "update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
         "and start is null",
         [campaign],
     )
-    con.execute("delete from calibration where campaign = ?", [campaign])
-    insert(con, "calibration", planned.calibrations)
-    con.execute("delete from campaign where campaign = ?", [campaign])
-    insert(
-        con,
-        "campaign",
-        [
-            {
-                "campaign": campaign,
-                "spec": planned.spec,
-                "spec_hash": key_of(planned.spec),
-                "path": str(planned.path),
-                "ingested_at": now,
-                "data_version": planned.data_version(),
-            }
-        ],
-    )
+    _replace_campaign(con, planned, now)
     then = states(inventory.rows, inventory.calibrations, differ)
     stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
     count_on(con, campaign, planned.rows, after - before)
     count_on(con, campaign, planned.rows, stay, stay=True)
     return stale
+
+
+def _replace_rows(
+    con: duckdb.DuckDBPyConnection, table: str, planned: Planned, inventory: Inventory, differ: set[str]
+) -> None:
+    """The rows of one table of the tests that differ in it."""
+    wanted, campaign = planned.rows[table], planned.campaign.id
+    gone = differ
+    if table == "test" and (gone or list(wanted) != list(inventory.rows[table])):
+        # it keeps the order of the campaign file, so all of its rows are written again
+        gone = {*wanted, *inventory.rows[table]}
+    if gone:
+        con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
+    insert(con, table, [row for test, rows in wanted.items() if test in gone for row in rows])
+
+
+def _replace_campaign(con: duckdb.DuckDBPyConnection, planned: Planned, now: datetime) -> None:
+    """The rows of the campaign itself, and of its calibrations."""
+    campaign = planned.campaign.id
+    con.execute("delete from calibration where campaign = ?", [campaign])
+    insert(con, "calibration", planned.calibrations)
+    con.execute("delete from campaign where campaign = ?", [campaign])
+    row = {
+        "campaign": campaign,
+        "spec": planned.spec,
+        "spec_hash": key_of(planned.spec),
+        "path": str(planned.path),
+        "ingested_at": now,
+        "data_version": planned.data_version(),
+    }
+    insert(con, "campaign", [row])
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:

@@ -18,7 +18,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
-from thermodata.reader.text.page.layout import Layout, find
+from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
@@ -166,7 +166,7 @@ def _layouts(path: Path, source: Source, book: Book) -> tuple[dict[str, Layout],
         try:
             if not (source.table or {}).get("time"):
                 refuse_sideways(rows, where)
-            tables[sheet] = find(rows[:500], source.table, where)
+            tables[sheet] = find_layout(rows[:500], source.table, where)
         except ThermodataError as error:
             refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
     # a list of numbers may be no recording; a time without its unit is one

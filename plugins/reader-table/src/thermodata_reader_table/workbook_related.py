@@ -24,7 +24,7 @@ def with_related(
     measured = {name for name, unit in stream.units.items() if unit}
     times = stream.times.t_ns
     found = related(said, values, empty, times, where, told_by_cells=told_by_cells, beyond=beyond, measured=measured)
-    if not (found.stands or found.quality or found.states):
+    if not (found.stands or found.qualities.of_values or found.qualities.states):
         return stream, found
     flags = {name: f[good] for name, f in stream.flags.items()}
     values, flags = Relating(found).over(values, flags, empty)
@@ -36,7 +36,7 @@ def with_related(
             made[name][good] = some
         return made
 
-    own = {name: {**properties, **found.properties(name)} for name, properties in stream.said.items()}
+    own = {name: {**properties, **found.qualities.properties(name)} for name, properties in stream.said.items()}
     return replace(
         stream,
         values=of_all_rows(values, stream.values),

@@ -4,31 +4,29 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
-from thermodata.errors import FormatError, QuestionError, UsageError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.signals.by_place import BY_PLACE
-from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
-from thermodata.reader.text.clocks.time_columns import column, time_of
-from thermodata.reader.text.clocks.time_groups import Span, spans
+from thermodata.reader.text.cells.cell import Cell, is_dated
 from thermodata.reader.text.names.before_values import names_before_values
 from thermodata.reader.text.names.declared_names import declared_names, unused_note
 from thermodata.reader.text.names.described import descriptions
 from thermodata.reader.text.names.header import split_unit, unique
 from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
+from thermodata.reader.text.page.find_groups import find_groups
 from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
 from thermodata.reader.text.page.from_start import with_start
-from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
-from thermodata.reader.times.open_questions import UNKNOWN, unanswered
-from thermodata.reader.times.time_units import EPOCHS, SECONDS
 
+_ROWS_BELOW = 200  # of data, by which columns are told
 _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 
 
@@ -74,80 +72,123 @@ class Layout:
         return next(g.stream for g in self.groups if column in g.columns)
 
 
-def find(
+@dataclass(frozen=True, slots=True)
+class _Header:
+    """What the rows above the data say of each column, as in `Layout`. worded: column -> the word before its values;
+    unused: the note on declared names that are not taken."""
+
+    names: list[str]
+    units: list[str | None]
+    over: list[str]
+    described: list[str]
+    worded: dict[int, str]
+    unused: str | None
+
+
+def find_layout(
     rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str, between: str | None = None
 ) -> Layout:
     """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`; between:
     what parts the cells of a text, as messages show it, where a header of another number of cells is refused.
 
-    FormatError where no data, or no time column, can be found.
+    FormatError where no data, or no time column, can be found; QuestionError where the times leave open what they say.
     """
     said = {k: v for k, v in (declared or {}).items() if v is not None}
     skip = int(said.get("skip_rows", 0))
     width = width_of(rows[skip:])
-    body = [r[:width] for r in rows[skip:]]
-    header = said.get("header_rows")
-    if header is None:
-        first = first_data(body, width, where)
-        date = next((str(c)[:_DATE] for c in body[first] if is_dated(c)), None)
-        while first and _is_torn(body[first - 1], width, date):
-            first -= 1
-        first += skip
-    else:
-        first = skip + int(header)
-    units_row = said.get("units_row")
-    if units_row is not None and header is not None and int(units_row) > first:
-        first = int(units_row)
-    row_of_units = None if units_row is None else int(units_row) - 1 - skip
-    below = rows[first : first + 200]
+    first = _first_row(rows, said, skip, width, where)
+    row_of_units = int(said["units_row"]) - 1 - skip if "units_row" in said else None
+    below = rows[first : first + _ROWS_BELOW]
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
     lacking = None
-    if between is not None and header is None:
+    if between is not None and "header_rows" not in said:
         times = said.get("time") or {}
         told = not isinstance(times, Mapping) or times.get("column") is not None
         lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where, told)
-    if between is not None and said.get("names") is None:
+    if between is not None and "names" not in said:
         refuse_units_misfit(above, width, row_of_units, skip, between, where)
+    header = _header(above, below, said, width, row_of_units, where)
+    data = _whole_rows(below, width)
+    if not data:
+        raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
+    lost = list[str]()
+    if "header_rows" not in said:
+        lost = lines_between(above, width, skip, header.names, header.units, where, between is not None)
+    lines = [texts_of(r) for r in above]
+    groups, notes = _times(said.get("time"), header, data, lines, where)
+    time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
+    against = [against_interval(header.names[i], [r[i] for r in data], groups[0].seconds, lines) for i in time]
+    called = ", ".join(header.worded.values())
+    by_words = f"columns are called by the words before their values: {called}" if called else None
+    noted = (*notes, *lost, by_words, fit.note if fit else None, lacking, header.unused, *against)
+    return Layout(
+        first,
+        tuple(header.names),
+        tuple(header.units),
+        tuple(groups),
+        tuple(note for note in noted if note),
+        tuple(header.over),
+        tuple(header.described),
+        fit,
+        tuple(header.worded.get(i, "") for i in range(width)) if header.worded else (),
+    )
+
+
+def _first_row(rows: Sequence[Sequence[Cell]], said: Mapping[str, Any], skip: int, width: int, where: str) -> int:
+    """The place of the first row of data, declared or found; FormatError where there is none."""
+    header = said.get("header_rows")
+    if header is not None:
+        return max(skip + int(header), int(said.get("units_row", 0)))
+    body = [r[:width] for r in rows[skip:]]
+    first = first_data(body, width, where)
+    date = next((str(c)[:_DATE] for c in body[first] if is_dated(c)), None)
+    while first and _is_torn(body[first - 1], width, date):
+        first -= 1
+    return first + skip
+
+
+def _header(
+    above: Sequence[Sequence[Cell]],
+    below: Sequence[Sequence[Cell]],
+    said: Mapping[str, Any],
+    width: int,
+    row_of_units: int | None,
+    where: str,
+) -> _Header:
+    """above: as `line_up` left them; below: rows of data. Declared names have the last word."""
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
-    worded = names_before_values(heads, below) if said.get("names") is None and not any(units) else {}
+    worded = names_before_values(heads, below) if "names" not in said and not any(units) else {}
     heads = [worded.get(i, head) for i, head in enumerate(heads)]
     units = [split_unit(worded[i])[1] if i in worded else unit for i, unit in enumerate(units)]
     unused = None
-    if said.get("names") is not None and list(said["names"]) != heads:
+    if "names" in said and list(said["names"]) != heads:
         unused = unused_note(heads, below)
         if unused is None:
             heads = declared_names(said["names"], width, where)
             units = [split_unit(name)[1] for name in heads]
-    names = unique(heads)
     described, listed = descriptions([texts_of(r) for r in above], heads)
-    units = [u or v for u, v in zip(units, listed, strict=True)]
-    data = _whole_rows(below, width)
-    if not data:
-        raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    lost = lines_between(above, width, skip, names, units, where, between is not None) if header is None else []
-    stated = stated_epoch(said.get("time"), map(texts_of, above))
+    units = [unit or other for unit, other in zip(units, listed, strict=True)]
+    return _Header(unique(heads), units, over, described, worded, unused)
+
+
+def _times(
+    declared: Any, header: _Header, data: list[list[Cell]], lines: Sequence[Sequence[str]], where: str
+) -> tuple[list[Group], list[str]]:
+    """(the groups of columns with one time, notes): by the columns, and by what lines above them say that times count
+    from. declared: `table: {time: ...}`; lines: the cells above the data. QuestionError where both leave it open."""
+    names, units = header.names, header.units
+    stated = stated_epoch(declared, lines)
     try:
-        groups, notes = _groups(said.get("time") or {}, names, units, data, where)
+        groups, notes = find_groups(declared or {}, names, units, data, where)
         if stated is not None:
             groups, notes = from_epoch(stated, groups, notes, names, units, data, where)
+        return groups, notes
     except QuestionError as question:
         answer = None if stated is None else answer_of(stated, names, units, data)
         if stated is None or answer is None:
-            asked = with_interval(question, map(texts_of, above))
-            raise with_start(asked, names, data, map(texts_of, above)) from None
-        groups, notes = _groups(answer, names, units, data, where)
-        notes = [*notes, stated.note(answer["unit"])]
-    time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
-    against = [against_interval(names[i], [r[i] for r in data], groups[0].seconds, map(texts_of, above)) for i in time]
-    by_words = [f"columns are called by the words before their values: {', '.join(worded.values())}"] if worded else []
-    noted = (
-        *notes,
-        *lost,
-        *by_words,
-        *(note for note in (fit.note if fit else None, lacking, unused, *against) if note),
-    )
-    words = tuple(worded.get(i, "") for i in range(width)) if worded else ()
-    return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit, words)
+            raise with_start(with_interval(question, lines), names, data, lines) from None
+    groups, notes = find_groups(answer, names, units, data, where)
+    return groups, [*notes, stated.note(answer["unit"])]
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
@@ -169,114 +210,3 @@ def _is_torn(row: Sequence[Cell], width: int, date: str | None) -> bool:
     if any(is_dated(c) for c in filled[:2]) or (date is not None and any(str(c)[:_DATE] == date for c in filled)):
         return True
     return len(row) == width and len(filled) > 2 and are_numbers(filled) and any("." in str(c) for c in filled)
-
-
-def _groups(
-    said: Mapping[str, Any] | Sequence[Mapping[str, Any]],
-    names: list[str],
-    units: list[str | None],
-    data: list[list[Cell]],
-    where: str,
-) -> tuple[list[Group], list[str]]:
-    """The times of a table, each with its columns: as declared (one, or a list), or as found."""
-    width = len(names)
-    if not isinstance(said, Mapping):
-        if len(said) > 1:
-            return declared_groups(said, names, units, data, where)
-        said = said[0] if said else {}
-    if said.get("period") is not None:
-        return [_counted(said["period"], width, where)], []
-    notes: list[str] = []
-    found: list[Span] = []
-    if said.get("column") is None:
-        found, notes = spans(names, units, data, where)
-    if not found:
-        time, unit, form, more = time_of(said, names, units, data, where)
-        rest = tuple(i for i in range(width) if i not in time)
-        return [_group(STREAM, time, unit, form, rest)], [*more, *notes]
-    groups = []
-    for span in found:
-        rows = [[r[i] for i in span.columns] for r in data if any(not is_empty(r[i]) for i in span.times)]
-        time, unit, form, more = time_of(
-            said,
-            [names[i] for i in span.columns],
-            [units[i] for i in span.columns],
-            rows,
-            where,
-            tuple(span.columns.index(i) for i in span.times),
-        )
-        time = tuple(span.columns[i] for i in time)
-        groups.append(_group(names[time[0]], time, unit, form, tuple(i for i in span.columns if i not in time)))
-        notes += more
-    which = "that share its name" if found[0].named else "behind it"
-    streams = ", ".join(g.stream for g in groups)
-    return groups, [f"{len(groups)} time columns, each with the columns {which}: streams {streams}", *notes]
-
-
-def declared_groups(
-    said: Sequence[Mapping[str, Any]], names: list[str], units: list[str | None], data: list[list[Cell]], where: str
-) -> tuple[list[Group], list[str]]:
-    """Groups of a declared list of times: each with its `signals`, or with the columns behind it up to the next."""
-    width, notes, found = len(names), [], []
-    for one in said:
-        if one.get("column") is None:
-            raise UsageError(
-                "a time of several without its column",
-                where=where,
-                expected="table: {time: [{column: ...}, {column: ...}]}",
-            )
-        wanted = one["column"]
-        columns = [column(w, names, where) for w in (wanted if isinstance(wanted, list | tuple) else [wanted])]
-        rows = [r for r in data if not is_empty(r[columns[0]])]
-        time, unit, form, more = time_of(one, names, units, rows, where)
-        signals = one.get("signals")
-        own = None if signals is None else tuple(column(w, names, where) for w in signals)
-        found.append((time, unit, form, own))
-        notes += more
-    times = [i for time, *_ in found for i in time]
-    taken = {i for *_, own in found for i in own or ()}
-    twice = sorted({i for i in times if times.count(i) > 1 or i in taken})
-    counts = [i for *_, own in found for i in own or ()]
-    twice += sorted({i for i in counts if counts.count(i) > 1})
-    if twice:
-        raise UsageError(
-            f"column '{names[twice[0]]}' is declared twice",
-            where=where,
-            expected="each column once, as a time or as a signal of one",
-        )
-    groups, left = [], set(range(width)) - set(times) - taken
-    for time, unit, form, own in found:
-        if own is None:
-            end = min((i for i in times if i > max(time)), default=width)
-            own = tuple(i for i in range(max(time) + 1, end) if i not in taken)
-        left -= set(own)
-        groups.append(_group(names[time[0]], time, unit, form, own))
-    if left:
-        first = groups[0]
-        groups[0] = replace(first, columns=tuple(sorted((*first.columns, *left))))
-        notes.append(
-            f"columns of no declared time are read with '{first.stream}': " + ", ".join(names[i] for i in sorted(left))
-        )
-    return groups, notes
-
-
-def _group(stream: str, time: tuple[int, ...], unit: str | None, form: str | None, columns: tuple[int, ...]) -> Group:
-    return Group(
-        stream, time, None if unit is None else SECONDS.get(unit), form, unit if unit in EPOCHS else None, columns
-    )
-
-
-def _counted(period: Any, width: int, where: str) -> Group:
-    """All columns, in rows that follow each other at a declared period [s]."""
-    return Group(STREAM, (), period_s(period, where), None, None, tuple(range(width)), True)
-
-
-def period_s(period: Any, where: str) -> float:
-    """A declared `time.period` [s]; FormatError where it is not answered yet."""
-    if period == UNKNOWN:
-        raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
-    if isinstance(period, str):
-        from thermodata.schema.units.quantity import value_in
-
-        period = value_in(period, "s")
-    return float(period)

@@ -38,7 +38,7 @@ _WHOLE = re.compile(r"^\+?\d+(?:[.,]0*)?$")
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
 QUALITY_OF = "quality_of"  # property of a signal: the ones that it flags
 STATE_OF = "state_of"  # and the one whose state it tells, in codes that are not known here
-_SHOWN = 4
+SHOWN = 4  # names of columns, or codes, in a note
 Pairs = Mapping[str, tuple[str, bool]]
 Told = Callable[[bool | None, str], bool | None]
 
@@ -65,14 +65,6 @@ def quality_pairs(
     return pairs
 
 
-def qualities(
-    columns: Mapping[str, Sequence[str]], told: Told, measured: Collection[str] = ()
-) -> tuple[dict[str, tuple[str, bool]], dict[str, tuple[str, bool]], dict[str, str]]:
-    """`quality_pairs`, `second_pairs` and `states` of columns. measured: those with a unit."""
-    pairs = quality_pairs(columns, told, measured)
-    return pairs, second_pairs(columns, pairs, told, measured), states(columns, pairs, measured)
-
-
 def second_pairs(
     columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str]
 ) -> dict[str, tuple[str, bool]]:
@@ -96,7 +88,7 @@ def said_of_codes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str]
         for own, value in faults.items()
     ]
     return noted + [
-        f"'{name}' holds codes of '{value}' ({', '.join(_codes(columns[name])[:_SHOWN])}) that are not known here: its "
+        f"'{name}' holds codes of '{value}' ({', '.join(_codes(columns[name])[:SHOWN])}) that are not known here: its "
         "rows count whatever they say; leave those out by the test's measuring, with it as a channel of quantity state"
         for name, value in found.items()
         if _STATUS.search(name) and not _is_a_switch(columns[name])
@@ -205,22 +197,6 @@ def values_of(pairs: Pairs) -> dict[str, list[str]]:
     return values
 
 
-def said_of_values(name: str, states: Mapping[str, str], *pairs: Pairs) -> dict[str, str]:
-    """The properties of a column: the values that it flags, or the one whose state it tells."""
-    values = [value for each in pairs for value, (own, _) in each.items() if own == name]
-    return {QUALITY_OF: ", ".join(values)} if values else {STATE_OF: states[name]} if name in states else {}
-
-
-def shared(pairs: Pairs) -> list[str]:
-    """A note on each quality column that flags the values of several others."""
-    return [
-        f"'{own}' is taken for the quality of all {len(values)} values of its row ({', '.join(values[:_SHOWN])}"
-        f"{', ...' if len(values) > _SHOWN else ''}): where it is bad they do not count"
-        for own, values in values_of(pairs).items()
-        if len(values) > 1
-    ]
-
-
 def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:
     """The quality columns that hold words or hexadecimal codes: text, however few these are."""
     told = {column for column, _ in pairs.values()}
@@ -241,12 +217,3 @@ def bad_rows(values: Array, zero: bool, faults: bool = False) -> Array:
 
 def _keeps(text: str, zero: bool, faults: bool) -> bool:
     return is_no_fault(text) if faults else is_good(text, zero)
-
-
-def with_bad_rows(flags: Mapping[str, Array], values: Mapping[str, Array], *pairs: Pairs) -> dict[str, Array]:
-    """The flags of values, with those of the rows that their quality columns call bad; shape (n,) each."""
-    found = dict(flags)
-    for name, (own, zero) in (item for each in pairs for item in each.items()):
-        if name in values and own in values and (bad := bad_rows(values[own], zero, tells_faults(own))).any():
-            found[name] = found.get(name, np.zeros(bad.size, np.uint16)) | bad
-    return found

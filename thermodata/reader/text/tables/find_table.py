@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -14,14 +14,11 @@ from thermodata.reader.text.cells import delimiter as delimiters
 from thermodata.reader.text.cells.named_values import TIME as NAMED_TIME
 from thermodata.reader.text.cells.named_values import named_values
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
-from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.page.group import STREAM, Group
-from thermodata.reader.text.page.layout import Layout, find
+from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
     NOT_TAKEN,
@@ -31,22 +28,17 @@ from thermodata.reader.text.preamble.begin import (
     first_times,
     unused_start,
 )
-from thermodata.reader.text.rows.grid import TIME
-from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
-from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
-from thermodata.reader.text.tables.head_lines import HeadLines, part
+from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
+from thermodata.reader.text.tables.look_at_columns import look_at_columns
 from thermodata.reader.text.tables.row_series import with_series
-from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
-from thermodata.reader.text.tables.standing_columns import standing_columns
+from thermodata.reader.text.tables.sampled_cells import still_going
 from thermodata.reader.text.tables.table import Table, TimedGroup, header_lines
-from thermodata.reader.text.tables.told_thousands import told_thousands
 from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.text.times.unpadded import unpadded_note
-from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 
@@ -97,60 +89,39 @@ def _kept(asked: _Asked) -> Table:
 def find_table(
     head: Sequence[str], first: Sample, source: Source, where: str, stream: str, strict: bool = False
 ) -> Table:
-    """The table in a file's first lines. first: all that was sampled of the file; strict: not where its header has
-    another number of cells than its rows, and nothing tells which names which (whose file it is does not hang on
-    that)."""
+    """The table in a file's first lines. first: all that was sampled of the file; stream: what its one stream is
+    called; strict: not where its header has another number of cells than its rows, and nothing tells which names which
+    (whose file it is does not hang on that).
+
+    FormatError where there is none, or it can't be read; QuestionError where it leaves open how."""
     if not any(line.strip() for line in head):
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
     if not named_values(head):
         refuse_foreign(head, where)
     said = source.table or {}
-    whole = part(head, first, said, where)
+    whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
     lines, rows = whole, whole.rows()
     if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
         lines, rows = whole.up_to(end), rows[:end]
-    layout = find(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
     body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
     preamble = lines.head[: layout.first]
     groups, zone, open_zone = zones_said(groups, layout.names, map(lines.cells, preamble), source.timezone)
-    cells_of = sampled_cells(layout, groups, body)
-    own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
-    units = dict(zip(layout.names, layout.units, strict=True))
-    measured = {name for name, unit in units.items() if unit}
-    quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
-    forced = {*(source.options.get("text") or ()), *worded(cells_of, quality), *worded(cells_of, of_rows)}
-    kinds = _kinds(layout, groups, cells_of, forced)
-    times = {layout.names[i] for i in layout.time}
-    values = {n: kind for n, kind in zip(layout.names, kinds, strict=True) if n not in times}
-    words = [n for n, kind in values.items() if kind == "str" and n not in forced]
-    _refuse_without_values(values, layout, words, cells_of, where)
-    numbers = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
-    decimal = _decimal(said.get("decimal"), numbers, whole.delimiter, where)
-    bare = {n: kind for n, kind in values.items() if units[n] is None}
-    told_unit = unit_column(bare, cells_of) if len(groups) == 1 else None
-    if told_unit and told_unit.others:  # what is converted is whole no more
-        kinds[layout.names.index(told_unit.of)] = "float64"
-    standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
+    texts = source.options.get("text") or ()
+    columns = look_at_columns(said, layout, groups, body, texts, whole.delimiter, where)
     above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
-    units_told = told_unit.note() if told_unit else unit_column_note(bare, cells_of)
     begin, doubt = _begin(groups, above, body, declared_start(said), where)
     notes = [
         whole.sample.note,
         *layout.notes,
-        *_notes(layout, kinds, groups),
-        *(STANDS for g in groups if stands(body, g.group.time, g.formats)),
-        *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
-        decimal.note,
-        *(unit_note(cells_of[name], name) for name in words),
-        *shared({**quality, **of_rows}),
-        *said_of_codes(own_cells, codes, quality, of_rows),
-        standing_note,
-        units_told,
+        *_of_names(layout, columns.kinds),
+        *_of_times(groups, body),
+        *columns.notes,
         doubt,
         open_zone,
     ]
@@ -161,21 +132,19 @@ def find_table(
         quoted=whole.quoted,
         layout=layout,
         groups=groups,
-        kinds=tuple(kinds),
-        decimal=decimal.mark,
-        decimal_declared=decimal.is_told,
+        kinds=columns.kinds,
+        decimal=columns.decimal,
+        decimal_declared=columns.decimal_is_told,
         header=header_lines(lines.head, layout.first, lines.cells),
-        quality=quality,
+        qualities=columns.qualities,
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
         named=whole.named,
         begin=begin,
         zone=zone,
-        unit=told_unit,
-        units_told=units_told,
-        stands=standing,
-        row_quality=of_rows,
-        states=codes,
+        unit=columns.unit,
+        units_told=columns.units_told,
+        stands=columns.stands,
     )
 
 
@@ -186,58 +155,6 @@ def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[l
     top_rows = map(lines.cells, lines.top[first:]) if lines.quoted else rows[first:]
     later = map(lines.cells, (*lines.head[max(top, first) : first + _TYPED_ROWS], *lines.sample.rest))
     return [r for r in (*top_rows, *later) if len(r) == len(layout.names)]
-
-
-def _kinds(
-    layout: Layout, groups: Sequence[TimedGroup], cells_of: Mapping[str, list[str]], texts: Collection[str]
-) -> list[str | None]:
-    """The dtype of each column, None for one without values. texts: columns that are text whatever their cells."""
-    times = {
-        i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
-        for g in groups
-        for i in g.group.time
-    }
-    return [
-        times[i] if i in times else "str" if name in texts else kind_of(cells_of[name], name, layout.units[i])
-        for i, name in enumerate(layout.names)
-    ]
-
-
-def _refuse_without_values(
-    kinds: Mapping[str, str | None],
-    layout: Layout,
-    words: Sequence[str],
-    cells_of: Mapping[str, list[str]],
-    where: str,
-) -> None:
-    """kinds: of the columns beside the time; words: those of them that are text by their cells alone."""
-    if not any(kind is not None for kind in kinds.values()):
-        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
-    if all(kind in (None, "str") for kind in kinds.values()):
-        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
-
-
-@dataclass(frozen=True, slots=True)
-class _Decimal:
-    """is_told: declared, or told by thousands, as the note says."""
-
-    mark: str | None
-    is_told: bool
-    note: str | None = None
-
-
-def _decimal(declared: str | None, numbers: Mapping[str, list[str]], delimiter: str, where: str) -> _Decimal:
-    """numbers: the cells of the columns of numbers."""
-    if declared == UNKNOWN:
-        raise unanswered("decimal", "'.' or ','", where)
-    if declared is not None:
-        return _Decimal(declared, is_told=True)
-    columns = list(numbers.values())
-    if (told := told_thousands(columns)) is not None:
-        return _Decimal(told.decimal, is_told=True, note=told.note)
-    mark = find_decimal(columns, delimiter, where)
-    ask_for_thousands(numbers, mark, where)
-    return _Decimal(mark, is_told=False)
 
 
 def _timed(
@@ -275,7 +192,8 @@ def _begin(
     return None, f"{stands}: some columns count from a start, others tell times of day"
 
 
-def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
+def _of_names(layout: Layout, kinds: Sequence[str | None]) -> Iterator[str]:
+    """Notes on columns without a name, or with the same."""
     times = set(layout.time)
     names = [n for i, (n, kind) in enumerate(zip(layout.names, kinds, strict=True)) if kind and i not in times]
     # a name of the file may begin with that word
@@ -284,8 +202,14 @@ def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGr
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
         yield "names that repeat are numbered: #2, #3, ..."
+
+
+def _of_times(groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> Iterator[str | None]:
+    """Notes on how times are written. body: the sampled rows."""
     if any(g.once for g in groups):
         yield NOTE
     for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
         if "DD/MM" in text or "MM/DD" in text:
             yield f"dates read as {text}"
+    yield from (STANDS for g in groups if stands(body, g.group.time, g.formats))
+    yield from (unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time)

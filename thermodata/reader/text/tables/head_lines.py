@@ -77,9 +77,9 @@ class HeadLines:
         return replace(self, head=self.head[:end], top=self.top[:end], sample=replace(self.sample, rest=()))
 
 
-def part(head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str) -> HeadLines:
-    """first: all that was sampled of the file; said: what is declared of the table. FormatError where nothing parts
-    cells."""
+def head_lines(head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str) -> HeadLines:
+    """The first lines with what parts their cells, declared or found. first: all that was sampled of the file; said:
+    what is declared of the table. FormatError where nothing parts cells."""
     top = top_of(head)
     if not said.get("delimiter") and (named := named_values((*top, *first.rest))):
         each = partial(in_columns, names=named)

@@ -5,8 +5,8 @@ How it is found: find_table.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from thermodata.reader.signals.row_units import UnitColumn
@@ -22,7 +22,7 @@ from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_scales
 from thermodata.reader.text.rows.grid import Grid
-from thermodata.reader.text.rows.quality_columns import Pairs
+from thermodata.reader.text.rows.qualities import Qualities
 from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.times.time_units import SECONDS
 
@@ -80,15 +80,13 @@ def header_lines(head: Sequence[str], first: int, cells: Callable[[str], Sequenc
 
 @dataclass(frozen=True)
 class Table:
-    """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
-    quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
-    parts its cells: lines are looked at, and read, with tabs in their place; named: names that stand before each value
-    of a line, which become columns so; begin: what its times count from, where
-    its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
-    hosts are taken apart; unit: the column that holds the one of its numbers; units_told: the note on such a column,
-    of rows that are of no series; stands: columns whose empty cells say that the value before them still stands;
-    row_quality: as quality, of whole rows whose values have one of their own too; states: column of codes that are not
-    known -> the value beside it."""
+    """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: the dtype of each
+    column, None of one without values; qualities: what columns say of others; blanks: whether any number of them parts
+    its cells: lines are looked at, and read, with tabs in their place; named: names that stand before each value of a
+    line, which become columns so; begin: what its times count from, where its head says so; zone: what a line above the
+    rows says of it, and that line; series: how rows of several sensors or hosts are taken apart; unit: the column that
+    holds the one of its numbers; units_told: the note on such a column, of rows that are of no series; stands: columns
+    whose empty cells say that the value before them still stands."""
 
     name: str
     sample: Sample
@@ -100,7 +98,7 @@ class Table:
     decimal: str | None
     decimal_declared: bool
     header: frozenset[str]
-    quality: Pairs
+    qualities: Qualities
     notes: tuple[str, ...]
     blanks: bool = False
     named: tuple[str, ...] = ()
@@ -110,8 +108,6 @@ class Table:
     unit: UnitColumn | None = None
     units_told: str | None = None
     stands: frozenset[int] = frozenset()
-    row_quality: Pairs = field(default_factory=dict)
-    states: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def absolute(self) -> bool:

@@ -18,7 +18,7 @@ from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.event_line import is_event_line
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
-from thermodata.reader.text.rows.quality_columns import values_of, with_bad_rows
+from thermodata.reader.text.rows.quality_columns import values_of
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
 from thermodata.reader.text.tables.row_clock import RowClock
@@ -47,7 +47,7 @@ class RowReader:
 
     def __init__(self, table: Table, source: Source, size: int) -> None:
         self.table = table
-        qualities = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
+        qualities = {quality: ", ".join(values) for quality, values in values_of(table.qualities.of_values).items()}
         self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
@@ -219,7 +219,7 @@ class RowReader:
                 values[name], flag = self._standing[i].over(values[name], flag, written)
             if flag is not None and flag.any():
                 flags[name] = flag
-        flags = with_bad_rows(flags, values, self.table.quality, self.table.row_quality)
+        flags = self.table.qualities.flagged(flags, values)
         return Block(timed.stream, t_ns, values, flags or None, lines + 1)
 
     def _without_time(

@@ -4,7 +4,7 @@ historians give them. A tag may be parted into columns, of which those count tha
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
@@ -111,64 +111,97 @@ def find_layout(
     return None
 
 
-def _headed_by(
-    row: int, delimiter: str, lines: Sequence[str], where: str, declared: str | None, later: Sequence[str]
-) -> Layout | None:
-    """The layout where this row is its header; None where it is none."""
-    raw = [clean(c) for c in fields(lines[row], delimiter)]
+@dataclass(frozen=True, slots=True)
+class _Header:
+    """Which columns a header names. raw, names: its cells, as they stand and `bare`; pairs: of tag and value, of a row
+    that holds several; influx: it is one of InfluxDB."""
+
+    raw: Sequence[str]
+    names: Sequence[str]
+    times: tuple[int, ...]
+    tag: int | None
+    value: int
+    status: int | None
+    pairs: Sequence[tuple[int, int]]
+    influx: bool
+
+    def whole(self, rows: Iterable[Sequence[str]]) -> list[Sequence[str]]:
+        """The rows with a cell for each name."""
+        return [cells for cells in rows if len(cells) == len(self.names)]
+
+
+def _header(raw: Sequence[str], below: Sequence[Sequence[str]]) -> _Header | None:
+    """raw: the cells of a line; below: those of the lines below it. None where they name no time and value, or nothing
+    tells what the value is of."""
     names = [bare(c) for c in raw]
-    influx = {"_time", "_value"} <= set(raw)
-    below = lines[row + 1 : row + _ROWS]
-    pairs = value_pairs(names, [fields(text, delimiter) for text in below])
+    pairs = value_pairs(names, below)
     times = tuple(names.index(n) for n in _TIMES if n in names)
     value = pairs[0][1] if pairs else next((names.index(n) for n in _values(names) if n in names), None)
     if value is None or not times:
         return None
-    status = _status(names)
-    if influx:
-        times, status = (raw.index("_time"),), None
     tag = pairs[0][0] if pairs else next((names.index(n) for n in NAME_WORDS if n in names), None)
-    if not influx and tag is None and ("sourcetimestamp" not in names or status is None):
+    if {"_time", "_value"} <= set(raw):
+        return _Header(raw, names, (raw.index("_time"),), tag, value, None, pairs, True)
+    status = _status(names)
+    if tag is None and ("sourcetimestamp" not in names or status is None):
         return None
-    body = [fields(text, delimiter) for text in below if not text.startswith("#")]
-    body = [cells for cells in body if len(cells) == len(names)]
-    form = _form([text for cells in body if (text := _time(cells, times))], where, declared)
+    return _Header(raw, names, times, tag, value, status, pairs, False)
+
+
+def _headed_by(
+    row: int, delimiter: str, lines: Sequence[str], where: str, declared: str | None, later: Sequence[str]
+) -> Layout | None:
+    """The layout where this row is its header; None where it is none."""
+    below = lines[row + 1 : row + _ROWS]
+    header = _header([clean(c) for c in fields(lines[row], delimiter)], [fields(text, delimiter) for text in below])
+    if header is None:
+        return None
+    body = header.whole(fields(text, delimiter) for text in below if not text.startswith("#"))
+    form = _form([text for cells in body if (text := _time(cells, header.times))], where, declared)
     if form is None:
         return None
     zero: bool | None = True
-    if status is not None:
-        sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
-        zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
-    taken = {*times, value, status, tag, *(k for pair in pairs for k in pair)}
-    units = [k for k, c in enumerate(raw) if k not in taken and holds_units(c, (clean(r[k]) for r in body))]
-    statuses = [k for k, n in enumerate(names) if tells_quality(n) is not None]
-    series = Series((), {})
-    split = (fields(x, delimiter) for x in (*lines[row + 1 :], *later))
-    if influx:
-        series = series_of_influx(raw, list(split))
-    elif tag is not None:
-        rows = [cells for cells in split if len(cells) == len(names)]
-        of_type = [k for k, n in enumerate(names) if n == _TYPE]
-        used = {*times, value, *(k for pair in pairs[1:] for k in pair), *units, *of_type, *statuses}
-        t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
-        series = series_of(names, rows, t_ns, tag, used)
+    if (status := header.status) is not None:
+        codes = (cells[status] for cells in (*body, *header.whole(fields(text, delimiter) for text in later)))
+        zero = zero_is_good(codes, header.names[status])
+    taken = {*header.times, header.value, status, header.tag, *(k for pair in header.pairs for k in pair)}
+    units = [
+        k for k, c in enumerate(header.raw) if k not in taken and holds_units(c, (clean(cells[k]) for cells in body))
+    ]
+    statuses = [k for k, n in enumerate(header.names) if tells_quality(n) is not None]
+    every = (fields(text, delimiter) for text in (*lines[row + 1 :], *later))
+    series = _series(header, every, form, {*units, *statuses})
     found = Layout(
-        delimiter,
-        row,
-        clean_line(lines[row]),
-        len(names),
-        times,
-        series.tags,
-        series.known,
-        value,
-        status,
-        form,
-        zero,
-        next(iter(units), None),
-        influx,
-        tuple(raw[k] for k in series.unread),
+        delimiter=delimiter,
+        row=row,
+        header=clean_line(lines[row]),
+        width=len(header.names),
+        times=header.times,
+        tags=series.tags,
+        known=series.known,
+        value=header.value,
+        status=status,
+        form=form,
+        zero_good=zero,
+        unit=next(iter(units), None),
+        annotated=header.influx,
+        unread=tuple(header.raw[k] for k in series.unread),
     )
-    return replace(found, more=_more(found, pairs, units, statuses))
+    return replace(found, more=_more(found, header.pairs, units, statuses))
+
+
+def _series(header: _Header, rows: Iterable[Sequence[str]], form: TimeFormat, others: Collection[int]) -> Series:
+    """What names the series of a value. rows: the cells of all sampled lines; others: columns that say something else
+    of a value."""
+    if header.influx:
+        return series_of_influx(header.raw, list(rows))
+    if header.tag is None:
+        return Series((), {})
+    whole = header.whole(rows)
+    of_type = [k for k, n in enumerate(header.names) if n == _TYPE]
+    used = {*header.times, header.value, *(k for pair in header.pairs[1:] for k in pair), *others, *of_type}
+    t_ns = timestamp.parse([_time(cells, header.times) for cells in whole], form)
+    return series_of(header.names, whole, t_ns, header.tag, used)
 
 
 def _more(

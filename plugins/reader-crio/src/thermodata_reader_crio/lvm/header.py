@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -110,71 +111,85 @@ def read_header(lines: list[str], notes: list[str]) -> Header:
 
 
 def read_packet(lines: list[str], names_line: str, header: Header, path: Path, number: int) -> Packet:
-    """A packet's heading. The line of names decides how many X columns there are, for it stands over the data."""
+    """A packet's heading. The line of names decides how many X columns there are, for it stands over the data. number:
+    of that line in the file. FormatError where it names no channels, or X columns in another order."""
     keys: dict[str, list[str]] = {}
-    notes: list[str] = []
+    twice: list[str] = []
     for line in lines:
         name, *values = cells(line, header.separator)
-        if name and name in keys and name not in ("Notes",):
-            notes.append(f"line {number}: the key {name} stands twice in one heading")
+        if name in keys and name != "Notes":
+            twice.append(f"the key {name} stands twice in one heading")
         if name:
             keys.setdefault(name, values)
     row = cells(names_line, header.separator)
     comment = row[-1] == "Comment"
-    last = len(row) - 1 if comment else len(row)
-    while not comment and last > 1 and not row[last - 1]:
-        last -= 1
-    xs = [i for i in range(last) if row[i] == "X_Value"]
-    if not xs or xs[0] != 0 or last < 2:
-        raise FormatError(
-            "LVM heading without channels",
-            where=f"{path.name} line {number}",
-            expected="X_Value and the names of channels",
-            got=names_line[:80],
-        )
-    multi = len(xs) > 1 and xs == list(range(0, last, 2))
-    if len(xs) > 1 and not multi:
-        raise FormatError(
-            "LVM heading whose X columns do not alternate with its channels",
-            where=f"{path.name} line {number}",
-            got=names_line[:80],
-        )
-    columns = list(range(1, last, 2 if multi else 1))
-    said = header.x_columns
-    if said not in ("No", "One", "Multi") or ((said == "Multi") != multi and len(columns) > 1):
-        notes.append(
-            f"line {number}: X_Columns is '{said}', but the names have "
-            f"{'an X column for each channel' if multi else 'one X column'}"
-        )
-    x: list[int | None] = [c - 1 if multi else 0 if said != "No" else None for c in columns]
-    count = next(iter(keys.get("Channels", [])), "")
-    if count != str(len(columns)):
-        notes.append(
-            f"line {number}: the heading announces {count or 'no number of'} channels and names {len(columns)}"
-        )
-    notes += [
-        f"line {number}: the heading has no {key}"
-        for key in ("Samples", "Date", "Time", "X0", "Delta_X")
-        if key not in keys
-    ]
-    notes += [
-        f"line {number}: {key} stands for {told} of {len(columns)} channels"
-        for key in ("Samples", "Date", "Time", "X0", "Delta_X")
-        if 0 < (told := sum(map(bool, keys.get(key, ())))) < len(columns)
-    ]
+    width = len(row) - 1 if comment else _without_empty_ends(row)
+    multi = _alternate(row[:width], names_line, f"{path.name} line {number}")
+    columns = tuple(range(1, width, 2 if multi else 1))
+    notes = [*twice, *_against_names(header, keys, multi, len(columns)), *_lacking(keys, len(columns))]
     return Packet(
-        keys,
-        _unique([row[c] or f"column {c + 1}" for c in columns]),
-        tuple(columns),
-        tuple(x),
-        comment,
-        last,
-        number,
-        tuple(notes),
+        keys=keys,
+        names=_unique([row[c] or f"column {c + 1}" for c in columns]),
+        columns=columns,
+        x=tuple(c - 1 if multi else 0 if header.x_columns != "No" else None for c in columns),
+        comment=comment,
+        width=width,
+        line=number,
+        notes=tuple(f"line {number}: {note}" for note in notes),
     )
 
 
+def _without_empty_ends(row: list[str]) -> int:
+    """How many cells a line of names has without the empty ones at its end; one at least."""
+    width = len(row)
+    while width > 1 and not row[width - 1]:
+        width -= 1
+    return width
+
+
+def _alternate(row: list[str], names_line: str, where: str) -> bool:
+    """Whether each channel has an X column of its own in front of it, else there is one for all. FormatError where
+    neither is so. row: the cells of the line of names."""
+    xs = [i for i, name in enumerate(row) if name == "X_Value"]
+    if not xs or xs[0] != 0 or len(row) < 2:
+        raise FormatError(
+            "LVM heading without channels",
+            where=where,
+            expected="X_Value and the names of channels",
+            got=names_line[:80],
+        )
+    multi = len(xs) > 1 and xs == list(range(0, len(row), 2))
+    if len(xs) > 1 and not multi:
+        raise FormatError(
+            "LVM heading whose X columns do not alternate with its channels", where=where, got=names_line[:80]
+        )
+    return multi
+
+
+def _against_names(header: Header, keys: Mapping[str, list[str]], multi: bool, channels: int) -> Iterator[str]:
+    """What the headers say otherwise than the line of names. channels: how many it names."""
+    said = header.x_columns
+    if said not in ("No", "One", "Multi") or ((said == "Multi") != multi and channels > 1):
+        yield (
+            f"X_Columns is '{said}', but the names have {'an X column for each channel' if multi else 'one X column'}"
+        )
+    count = next(iter(keys.get("Channels", [])), "")
+    if count != str(channels):
+        yield f"the heading announces {count or 'no number of'} channels and names {channels}"
+
+
+def _lacking(keys: Mapping[str, list[str]], channels: int) -> Iterator[str]:
+    """What the heading lacks of the keys by which rows are counted and timed."""
+    wanted = ("Samples", "Date", "Time", "X0", "Delta_X")
+    yield from (f"the heading has no {key}" for key in wanted if key not in keys)
+    for key in wanted:
+        told = sum(map(bool, keys.get(key, ())))
+        if 0 < told < channels:
+            yield f"{key} stands for {told} of {channels} channels"
+
+
 def _unique(names: list[str]) -> tuple[str, ...]:
+    """Names of which each stands once: 'T', 'T#2', and more '#' where a channel is called so already."""
     found: list[str] = []
     seen: dict[str, int] = {}
     taken = set(names)

@@ -67,56 +67,96 @@ def streams_of(
     taken: dict[str, int],
     file: BinaryIO,
 ) -> Iterable[Stream]:
-    """The streams of one group of channels. taken: names of streams so far; file: for the first values of channels
-    that hold a time."""
+    """The streams of one group of channels. notes: what is told of them comes here; taken: names of streams so far;
+    file: for the first values of channels that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    pair = weeks_of_gps(filled, source, file) or date_and_time(filled, source, file)
-    clocks = time_channels(filled, source, file) if pair is None else [pair.members[0]]
-    apart = {*map(id, clocks), *(() if pair is None else map(id, pair.members))}
-
-    def timed(time: Channel) -> TimeChannel:
-        return time_channel(time, file, source, notes, above) if pair is None else pair.time_channel(file, notes)
-
-    late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
-    used: set[int] = set()
-    step = _seconds(source.options.get("increment"))
-    if step is None:
-        for c in filled:
-            over = runs_over(c.signal.properties) if c.clock is None and id(c) not in apart else None
-            if over is not None and not any(_same_rows(time, c, index) for time in clocks):
-                notes.append(f"{c.signal.name}: stands over {over}, not over time; left out")
-                apart.add(id(c))
-    above = [index.properties.get(path, {}) for path in (_path_above(filled), "/")]
-    for part in _parts([c for c in filled if id(c) not in apart], index):
-        time = None if part[0].clock is not None else next((c for c in clocks if _same_rows(c, part[0], index)), None)
+    times = _Times(filled, index, source, file, notes)
+    begins = min((_first_piece(c) for c in filled if c.length), default=0)
+    step_s = _seconds(source.options.get("increment"))
+    measured = [c for c in filled if not times.hold(c)]
+    if step_s is None:
+        measured = [c for c in measured if not _stands_over_another(c, times, notes)]
+    for part in _parts(measured, index):
         name = _name(group, taken)
         own = tuple([c.in_stream(name) for c in part])
+        time = None if part[0].clock is not None else times.of_rows(part[0])
         if time is not None:
-            used.add(id(time))
-            yield Stream(name, own, None, timed(time))
+            yield Stream(name, own, None, times.taken(time))
             continue
-        clock = part[0].clock
-        if clock is None:
-            clock = counted_clock(index, part[0].columns[0], step or 1.0)
-            if step is None:
-                notes.append(
-                    f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
-                    "options: {increment: 0.1 s}, or {time: CHANNEL}"
-                )
-        elif any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock not in (None, clock)):
-            notes.append(
-                f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
-                "rows carry the time of the first; each channel's own start stands in its wf_start_time"
-            )
-        if part[0].length and int(part[0].columns[0].runs.piece[0]) > late:
+        clock = _clock(part, index, step_s, name, notes)
+        if part[0].length and _first_piece(part[0]) > begins:
             notes.append(f"stream '{name}' begins after others of its group; its time is what its own properties say")
         yield Stream(name, own, clock, None)
-    for c in clocks:
+    for c in times.left():
         # a time channel beside waveforms is a signal like any other
-        if id(c) not in used:
-            name = _name(group, taken)
-            yield Stream(name, (c.in_stream(name),), None, timed(c))
+        name = _name(group, taken)
+        yield Stream(name, (c.in_stream(name),), None, times.taken(c))
+
+
+class _Times:
+    """The channels of a group that hold times, and which of them are the time of a stream already."""
+
+    def __init__(self, filled: list[Channel], index: Index, source: Source, file: BinaryIO, notes: list[str]) -> None:
+        self._index, self._source, self._file, self._notes = index, source, file, notes
+        # two channels that tell a time together stand for its first one
+        self._pair = weeks_of_gps(filled, source, file) or date_and_time(filled, source, file)
+        self._channels = time_channels(filled, source, file) if self._pair is None else [self._pair.members[0]]
+        self._ids = {*map(id, self._channels), *(() if self._pair is None else map(id, self._pair.members))}
+        self._above = [index.properties.get(path, {}) for path in (_path_above(filled), "/")]
+        self._taken: set[int] = set()
+
+    def hold(self, channel: Channel) -> bool:
+        """Whether a channel is one of them, or the second of two."""
+        return id(channel) in self._ids
+
+    def of_rows(self, channel: Channel) -> Channel | None:
+        """The first that has the same rows as a channel."""
+        return next((c for c in self._channels if _same_rows(c, channel, self._index)), None)
+
+    def taken(self, time: Channel) -> TimeChannel:
+        """One of them as the time of a stream."""
+        self._taken.add(id(time))
+        if self._pair is not None:
+            return self._pair.time_channel(self._file, self._notes)
+        return time_channel(time, self._file, self._source, self._notes, self._above)
+
+    def left(self) -> list[Channel]:
+        """Those that are the time of no stream."""
+        return [c for c in self._channels if id(c) not in self._taken]
+
+
+def _stands_over_another(channel: Channel, times: _Times, notes: list[str]) -> bool:
+    """Whether a channel without a time stands over something else, a frequency or a position, as its properties say."""
+    over = runs_over(channel.signal.properties) if channel.clock is None else None
+    if over is None or times.of_rows(channel) is not None:
+        return False
+    notes.append(f"{channel.signal.name}: stands over {over}, not over time; left out")
+    return True
+
+
+def _clock(part: list[Channel], index: Index, step_s: float | None, name: str, notes: list[str]) -> Clock:
+    """The clock of channels that no channel holds the time of: their own, or one that counts rows. step_s: from row to
+    row, where it is declared."""
+    clock = part[0].clock
+    if clock is None:
+        if step_s is None:
+            notes.append(
+                f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
+                "options: {increment: 0.1 s}, or {time: CHANNEL}"
+            )
+        return counted_clock(index, part[0].columns[0], step_s or 1.0)
+    if any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock not in (None, clock)):
+        notes.append(
+            f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
+            "rows carry the time of the first; each channel's own start stands in its wf_start_time"
+        )
+    return clock
+
+
+def _first_piece(channel: Channel) -> int:
+    """The number of the file's first piece that holds rows of a channel."""
+    return int(channel.columns[0].runs.piece[0])
 
 
 def _name(group: str, taken: dict[str, int]) -> str:

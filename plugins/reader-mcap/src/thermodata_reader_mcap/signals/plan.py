@@ -23,7 +23,7 @@ from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.batches_of_samples import Samples, parted
-from thermodata_reader_mcap.signals.chunk_survey import WHOLE, chosen_of, survey
+from thermodata_reader_mcap.signals.chunk_survey import WHOLE, Chunks, chosen_of, survey
 from thermodata_reader_mcap.signals.find_samples import find_samples
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
@@ -71,84 +71,80 @@ def content(view: memoryview, name: str, said: Summary) -> Content:
 
 def plan(view: memoryview, name: str, source: Source) -> Plan:
     """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
-    chosen_options, said, chunks = options(source), summary(view), survey(view)
+    chosen, said, chunks = options(source), summary(view), survey(view)
+    walk = _walk(view, name, source, said, chunks)
+    _refuse_missing(source, [*walk.channels, *said.channels.values()], name)
+    notes = extras(view, chunks.extras)
+    if said.damaged:
+        notes.append("the summary at the end of the file is damaged; it was not needed")
+    batches = walk.batches
+    samples: dict[str, tuple[Samples, ...]] = {}
+    if chosen.time == LOG:  # else it is declared when each message was
+        samples, more = find_samples(batches)
+        notes += more
+        batches = {c: parted(b, samples[c.topic]).batch if c.topic in samples else b for c, b in batches.items()}
+    found = _topics(batches, chosen, source, walk.whole, notes)
+    unread = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
+    if unread and not found.topics:
+        raise FormatError(
+            "no topic of this recording can be read",
+            where=name,
+            got="; ".join(unread),
+            expected="messages in json, cdr, ros1 or protobuf with their schemas",
+        )
+    chosen = _with_unit(chosen, batches, found, name)
+    clock = _clock(chosen, batches, found)
+    notes += clock.notes
+    stamped = _stamped(chosen, batches, found)
+    series, more = _senders(found, batches, stamped, chosen.series)
+    notes += more
+    times = {chosen.stamp} if chosen.stamp is not None else set[Path]()
+    units = units_said([t for t in found.topics if t not in series], found.topics, found.readers, batches, times, notes)
+    found.sent.leave([one.of for one in units])
+    notes += filter(None, (found.sent.note(topic, found.decoders(name)) for name, topic in found.topics.items()))
+    return Plan(
+        options=chosen,
+        summary=said,
+        topics=found.topics,
+        readers=found.readers,
+        unsupported=found.unsupported,
+        stamped=stamped,
+        series=series,
+        naming={c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
+        units=units,
+        sent=found.sent,
+        samples=samples,
+        start_ns=clock.start_ns,
+        relative=clock.relative,
+        complete=is_complete(view) and not walk.damaged,
+        notes=[*notes, *unread],
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Walk:
+    """What a first walk through some chunks met. channels: all of them, wanted or not; batches: messages of wanted
+    channels; whole: whether no chunk was left out; damaged: something in them is."""
+
+    channels: tuple[Channel, ...]
+    batches: dict[Channel, Batch]
+    whole: bool
+    damaged: bool
+
+
+def _walk(view: memoryview, name: str, source: Source, said: Summary, chunks: Chunks) -> _Walk:
     chosen = chosen_of(chunks)
     met = content(view, name, said)
     met.key = lambda channel: channel if wanted_topic(channel.topic, source) else None
-    whole = chosen is None
-    damaged = chunks.damaged
-    for loss in collect_messages(
-        view, met, lambda: met.pending >= WHOLE, None if chosen is None else chosen.__contains__
-    ):
+    whole, damaged = chosen is None, chunks.damaged
+    wanted = None if chosen is None else chosen.__contains__
+    for loss in collect_messages(view, met, lambda: met.pending >= WHOLE, wanted):
         damaged |= loss is not None
         if not chunks.sizes and met.pending >= WHOLE:  # messages outside of chunks: their head must do
             whole = False
             break
-    _refuse_missing(source, [*met.definitions.met, *said.channels.values()], name)
-    notes = extras(view, chunks.extras)
-    if said.damaged:
-        notes.append("the summary at the end of the file is damaged; it was not needed")
-    batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
-    samples: dict[str, tuple[Samples, ...]] = {}
-    if chosen_options.time == LOG:  # else it is declared when each message was
-        samples, more = find_samples(batches)
-        notes += more
-        batches = {c: parted(b, samples[c.topic]).batch if c.topic in samples else b for c, b in batches.items()}
-    found = _topics(batches, chosen_options, source, whole, notes)
-    unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
-    if unknown and not found.topics:
-        raise FormatError(
-            "no topic of this recording can be read",
-            where=name,
-            got="; ".join(unknown),
-            expected="messages in json, cdr, ros1 or protobuf with their schemas",
-        )
-    chosen_options = _with_unit(chosen_options, batches, found, name)
-    used = [b for c, b in batches.items() if c.topic in found.topics]
-    times = np.concatenate([np.empty(0, np.uint64), *(b.times()[chosen_options.time == PUBLISH] for b in used)])
-    times = times[(times < LATEST_NS) & ((times > 0) | (chosen_options.time != PUBLISH))]  # none was published at 0
-    relative = times.size > 0 and int(times.max()) < EARLIEST_NS
-    told = [n for topic in found.topics.values() if (n := apart(topic, batches, _mine(found, topic), relative))]
-    start = int(times.min()) if times.size else None
-    if relative:  # stamps that are declared may have the dates that the log times lack
-        firsts = [first_stamp(chosen_options, batches, _mine(found, topic)) for topic in found.topics.values()]
-        dated = [ns for ns in firsts if ns is not None and ns >= EARLIEST_NS]
-        relative, start = (False, min(dated)) if dated else (True, start)
-    if relative:
-        notes.append("log times count from the start of the recording")
-    if chosen_options.time == LOG:
-        notes += [*told, *([] if relative else rushed(used))]
-    stamped = {}
-    different = {c.topic for c, b in batches.items() if not _same(b)}
-    for topic in found.topics:
-        same = not chosen_options.publish and topic not in different
-        if chosen_options.time != LOG:
-            stamped[topic] = "log_time"
-        elif not same:
-            stamped[topic] = PUBLISH
-    series, more = _senders(found, batches, stamped, chosen_options.series)
-    notes += more
-    kept = {chosen_options.stamp} if chosen_options.stamp is not None else set[Path]()
-    units = units_said([t for t in found.topics if t not in series], found.topics, found.readers, batches, kept, notes)
-    found.sent.leave([one.of for one in units])
-    notes += filter(None, (found.sent.note(topic, _mine(found, topic)) for topic in found.topics.values()))
-    return Plan(
-        chosen_options,
-        said,
-        found.topics,
-        found.readers,
-        found.unsupported,
-        stamped,
-        series,
-        {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
-        units,
-        found.sent,
-        samples,
-        start,
-        relative,
-        is_complete(view) and not damaged,
-        [*notes, *unknown],
-    )
+    batches = {key: batch for key, batch in met.batches.items() if isinstance(key, Channel)}
+    return _Walk(tuple(met.definitions.met), batches, whole, damaged)
 
 
 @dataclass(slots=True)
@@ -158,13 +154,50 @@ class _Found:
     unsupported: dict[str, str] = field(default_factory=dict)
     sent: UnitsOfChannels = field(default_factory=UnitsOfChannels)
 
+    def decoders(self, topic: str) -> dict[Channel, Decoder]:
+        """Those of a topic's channels."""
+        return {c: decoder for c, decoder in self.readers.items() if c.topic == topic}
 
-def _mine(found: _Found, topic: Topic) -> dict[Channel, Decoder]:
-    """The decoders of a topic's channels."""
-    return {c: r for c, r in found.readers.items() if c.topic == topic.name}
+
+@dataclass(frozen=True, slots=True)
+class _Clock:
+    """start_ns: the earliest time that was met, None where none was; relative: times count from the start of the
+    recording."""
+
+    start_ns: int | None
+    relative: bool
+    notes: list[str]
+
+
+def _clock(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> _Clock:
+    """When the messages of the topics that are read begin, and whether that is a date."""
+    used = [b for c, b in batches.items() if c.topic in found.topics]
+    times = np.concatenate([np.empty(0, np.uint64), *(b.times()[chosen.time == PUBLISH] for b in used)])
+    times = times[(times < LATEST_NS) & ((times > 0) | (chosen.time != PUBLISH))]  # none was published at 0
+    relative = times.size > 0 and int(times.max()) < EARLIEST_NS
+    start = int(times.min()) if times.size else None
+    told = [n for name, topic in found.topics.items() if (n := apart(topic, batches, found.decoders(name), relative))]
+    if relative:  # stamps that are declared may have the dates that the log times lack
+        firsts = [first_stamp(chosen, batches, found.decoders(name)) for name in found.topics]
+        dated = [ns for ns in firsts if ns is not None and ns >= EARLIEST_NS]
+        relative, start = (False, min(dated)) if dated else (True, start)
+    notes = ["log times count from the start of the recording"] if relative else []
+    if chosen.time == LOG:
+        notes += [*told, *([] if relative else rushed(used))]
+    return _Clock(start, relative, notes)
+
+
+def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> dict[str, str]:
+    """Topic -> the time of its records that is a signal: the one that is not the rows' own, where it says more."""
+    if chosen.time != LOG:
+        return dict.fromkeys(found.topics, LOG)
+    different = {c.topic for c, b in batches.items() if not _same(b)}
+    return {topic: PUBLISH for topic in found.topics if chosen.publish or topic in different}
 
 
 def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool, notes: list[str]) -> _Found:
+    """What is read of each topic, by its messages: its signals and how they decode, or why it is not. whole: the
+    batches hold all messages."""
     by_topic: dict[str, list[Channel]] = {}
     for channel, batch in batches.items():
         if batch.payloads:
@@ -194,7 +227,7 @@ def _senders(
     series: dict[str, Series] = {}
     notes: list[str] = []
     for name, topic in found.topics.items():
-        made = {c: r for c, r in found.readers.items() if c.topic == name and c in batches}
+        made = {c: decoder for c, decoder in found.decoders(name).items() if c in batches}
         taken = {*found.topics, *(stream for one in series.values() for stream in one.streams.values())}
         times = {time_name(topic, stamped[name])} if name in stamped else set()
         one = senders(topic, batches, made, taken, times, declared)
@@ -214,8 +247,8 @@ def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, na
     if path not in fields:
         return chosen
     units = {
-        unit_of(path, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name})
-        for topic in found.topics.values()
+        unit_of(path, batches, found.decoders(name_of_topic))
+        for name_of_topic, topic in found.topics.items()
         if any(leaf.path == path for leaf in topic.leaves)
     }
     unit = units.pop() if len(units) == 1 else None
@@ -231,6 +264,7 @@ def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, na
 
 
 def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) -> bool:
+    """Whether the first messages all decode: where no signal came of them, they hold nothing."""
     for channel, one in made.items():
         for payload in samples[channel][:3]:
             try:
@@ -241,6 +275,7 @@ def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) ->
 
 
 def _same(batch: Batch) -> bool:
+    """Whether its messages were published when they were logged."""
     log_ns, publish_ns = batch.times()
     return bool(np.array_equal(log_ns, publish_ns))
 

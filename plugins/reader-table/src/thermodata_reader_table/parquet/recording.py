@@ -16,7 +16,8 @@ from thermodata.reader.times.zone import NAT
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at, unit_in_rows
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
-from thermodata_reader_table.parquet.table import Table, damage_as_format_error
+from thermodata_reader_table.parquet.damage import damage_as_format_error
+from thermodata_reader_table.parquet.table import Table
 
 STREAM = "table"
 _ROWS = 250_000
@@ -40,7 +41,7 @@ def describe(path: Path, source: Source) -> Recording:
             "float64" if unit is not None and unit.of == n and unit.others else table.dtype(i),
             properties={
                 **table.said[i],
-                **told.properties(n),
+                **told.qualities.properties(n),
                 **({UNIT_OF: unit.of} if unit is not None and unit.column == n else {}),
             },
             held=n in told.stands,

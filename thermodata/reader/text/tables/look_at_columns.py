@@ -1,0 +1,138 @@
+"""What the sampled cells of a table say of its columns: kinds, decimal mark, units in rows, and what they say of each
+other."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from thermodata.errors import FormatError
+from thermodata.reader.signals.row_units import UnitColumn
+from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
+from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
+from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.rows.grid import TIME
+from thermodata.reader.text.rows.qualities import Qualities, find_qualities
+from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
+from thermodata.reader.text.tables.sampled_cells import sampled_cells
+from thermodata.reader.text.tables.standing_columns import standing_columns
+from thermodata.reader.text.tables.table import TimedGroup
+from thermodata.reader.text.tables.told_thousands import told_thousands
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """What `Table` has of the same names. decimal_is_told: declared, or told by thousands, as a note says."""
+
+    kinds: tuple[str | None, ...]
+    qualities: Qualities
+    decimal: str | None
+    decimal_is_told: bool
+    unit: UnitColumn | None
+    units_told: str | None
+    stands: frozenset[int]
+    notes: tuple[str, ...]
+
+
+def look_at_columns(
+    said: Mapping[str, Any],
+    layout: Layout,
+    groups: Sequence[TimedGroup],
+    body: Sequence[list[str]],
+    texts: Collection[str],
+    delimiter: str,
+    where: str,
+) -> Columns:
+    """said: what is declared of the table; body: its sampled rows, of a cell for each column; texts: names of columns
+    that are text whatever their cells. FormatError: no values; QuestionError: cells that can be read in two ways."""
+    cells_of = sampled_cells(layout, groups, body)
+    units = dict(zip(layout.names, layout.units, strict=True))
+    own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
+    measured = {name for name, unit in units.items() if unit}
+    qualities = find_qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
+    forced = {*texts, *qualities.of_words(cells_of)}
+    kinds = _kinds(layout, groups, cells_of, forced)
+    times = {layout.names[i] for i in layout.time}
+    values = {name: kind for name, kind in zip(layout.names, kinds, strict=True) if name not in times}
+    words = [name for name, kind in values.items() if kind == "str" and name not in forced]
+    _refuse_without_values(values, layout, words, cells_of, where)
+    numbers = {name: cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
+    decimal = _decimal(said.get("decimal"), numbers, delimiter, where)
+    bare = {name: kind for name, kind in values.items() if units[name] is None}
+    unit = unit_column(bare, cells_of) if len(groups) == 1 else None
+    if unit and unit.others:  # what is converted is whole no more
+        kinds[layout.names.index(unit.of)] = "float64"
+    units_told = unit.note() if unit else unit_column_note(bare, cells_of)
+    stands, standing_note = standing_columns(said, layout, groups, kinds, cells_of, qualities.of_values, where)
+    notes = (
+        decimal.note,
+        *(unit_note(cells_of[name], name) for name in words),
+        *qualities.notes(own_cells),
+        standing_note,
+        units_told,
+    )
+    return Columns(
+        kinds=tuple(kinds),
+        qualities=qualities,
+        decimal=decimal.mark,
+        decimal_is_told=decimal.is_told,
+        unit=unit,
+        units_told=units_told,
+        stands=stands,
+        notes=tuple(note for note in notes if note),
+    )
+
+
+def _kinds(
+    layout: Layout, groups: Sequence[TimedGroup], cells_of: Mapping[str, list[str]], texts: Collection[str]
+) -> list[str | None]:
+    """The dtype of each column, None for one without values. texts: columns that are text whatever their cells."""
+    times = {
+        i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
+        for g in groups
+        for i in g.group.time
+    }
+    return [
+        times[i] if i in times else "str" if name in texts else kind_of(cells_of[name], name, layout.units[i])
+        for i, name in enumerate(layout.names)
+    ]
+
+
+def _refuse_without_values(
+    kinds: Mapping[str, str | None],
+    layout: Layout,
+    words: Sequence[str],
+    cells_of: Mapping[str, list[str]],
+    where: str,
+) -> None:
+    """kinds: of the columns beside the time; words: those of them that are text by their cells alone."""
+    if not any(kind is not None for kind in kinds.values()):
+        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+    if all(kind in (None, "str") for kind in kinds.values()):
+        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
+
+
+@dataclass(frozen=True, slots=True)
+class _Decimal:
+    """is_told: declared, or told by thousands, as the note says."""
+
+    mark: str | None
+    is_told: bool
+    note: str | None = None
+
+
+def _decimal(declared: str | None, numbers: Mapping[str, list[str]], delimiter: str, where: str) -> _Decimal:
+    """numbers: the cells of the columns of numbers."""
+    if declared == UNKNOWN:
+        raise unanswered("decimal", "'.' or ','", where)
+    if declared is not None:
+        return _Decimal(declared, is_told=True)
+    columns = list(numbers.values())
+    if (told := told_thousands(columns)) is not None:
+        return _Decimal(told.decimal, is_told=True, note=told.note)
+    mark = find_decimal(columns, delimiter, where)
+    ask_for_thousands(numbers, mark, where)
+    return _Decimal(mark, is_told=False)
