@@ -294,7 +294,7 @@ def test_short_names_and_those_of_one_test_come_back_as_they_are(tmp_path: Path,
     t = np.datetime64("2026-03-01T08:00:00") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
     for test, wear in (("cold", ""), ("warm", ",Eddy/X [um]")):
         rows = [
-            f"{a},{'' if i == 30 else 22 + i / 100},{i / 50:.2f},{'' if i == 9 else i / 40}{',' + str(i / 30) if wear else ''}"
+            f"{a},{'' if i == 30 else 22 + i / 100},{i / 50:.2f},{'' if i == 9 else i / 40}" + f",{i / 30}" * bool(wear)
             for i, a in enumerate(t)
         ]
         (lab / f"{test}.csv").write_text(f"time,T06 [degC],max [degC],Eddy/Z [um]{wear}\n" + "\n".join(rows) + "\n")

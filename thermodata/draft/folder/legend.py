@@ -36,7 +36,8 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 @dataclass(frozen=True, slots=True)
 class Said:
     """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. own:
-    key of the table `channel` -> what a workbook of our own says. others: what more lines say of it that is something else."""
+    key of the table `channel` -> what a workbook of our own says. others: what more lines say of it that is something
+    else."""
 
     name: str
     text: str
