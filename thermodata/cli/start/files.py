@@ -27,7 +27,7 @@ class _LogPath(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         from thermodata.reader.files.members import archive_of
 
-        if ".zip" in str(value).lower() and archive_of(Path(value)) is not None:
+        if archive_of(Path(value)) is not None:
             return Path(value)
         return super().convert(value, param, ctx)
 
