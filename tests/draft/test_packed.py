@@ -13,15 +13,15 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import pytest
 
+from thermodata.archive import too_much, unpacked
 from thermodata.draft.make import draft_files
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files import too_much, unpacked
 from thermodata.reader.finding.registry import reader
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
@@ -176,7 +176,7 @@ def locked(path: Path) -> Path:
     return path
 
 
-WAYS: dict[str, Literal["w:gz", "w:bz2", "w:xz"]] = {".gz": "w:gz", ".tgz": "w:gz", ".tbz2": "w:bz2", ".xz": "w:xz"}
+WAYS = {".gz": "w:gz", ".tgz": "w:gz", ".tbz2": "w:bz2", ".xz": "w:xz"}
 BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
     "leads out": (lambda p: zipped(p / "a.zip", {"../heat1.csv": log(1)}), "its name leads elsewhere"),
     "absolute": (lambda p: zipped(p / "a.zip", {"/etc/heat1.csv": log(1)}), "its name leads elsewhere"),
@@ -226,7 +226,8 @@ BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
 def tarred(path: Path, files: dict[str, str | bytes]) -> Path:
     """An archive, packed as its name says."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tarfile.open(path, WAYS.get(path.suffix, "w")) as archive:
+    way: Any = WAYS.get(path.suffix, "w")
+    with tarfile.open(path, way) as archive:
         for name, content in files.items():
             data = content.encode() if isinstance(content, str) else content
             member = tarfile.TarInfo(name)
@@ -316,6 +317,15 @@ def test_a_table_of_tests_in_the_archive_tells_their_conditions(tmp_path: Path, 
     with Store(tmp_path / "lab.store").reader() as con:
         found = dict(con.execute("select test, conditions->>'coolant' from test").fetchall())
     assert found == {"S3000_1": "off", "S6000_2": "on", "S9000_3": "off"}
+
+
+def test_names_of_one_pattern_in_an_archive_become_tests_from(tmp_path: Path, say: Say) -> None:
+    names = {f"S{n}_F{100 * k}_{k}.csv": log(k).replace("3000", str(n)) for k, n in enumerate((3000, 6000, 9000), 1)}
+    for name, text in names.items():
+        written(tmp_path / "loose/day" / name, text.encode())
+    zipped(tmp_path / "zip/day.zip", dict(names))
+    assert rows_of(tmp_path / "zip", say) == rows_of(tmp_path / "loose", say)
+    assert 'files: "day.zip/S{speed}_F{feed}_{nr}.csv"' in (tmp_path / "zip/campaign.yaml").read_text()
 
 
 def test_an_archive_of_an_office_file_and_one_of_nothing_are_no_logs(tmp_path: Path) -> None:

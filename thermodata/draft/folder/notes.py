@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.unpacked import held
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
 from thermodata.errors import FormatError
-from thermodata.reader.files.unpacked import held
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.file.encoding import decode_head
 

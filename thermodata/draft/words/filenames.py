@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
-from thermodata.reader.files.members import ARCHIVES
+from thermodata.archive.members import ARCHIVES
 from thermodata.reader.files.rotated import as_unpacked, unrotated
 
 _PIECE = re.compile(r"[_\-. ]+")

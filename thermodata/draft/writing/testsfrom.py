@@ -9,7 +9,6 @@ from pathlib import PurePosixPath
 
 from thermodata.draft.campaign.parts import Draft, DraftTest
 from thermodata.draft.words.said_by_names import speed_in
-from thermodata.reader.files.members import is_archive_name
 
 _LEAST = 3
 _FIELDS: tuple[tuple[str, str, str], ...] = (  # name before the number, condition, its unit
@@ -46,9 +45,6 @@ def pattern_of(draft: Draft) -> Pattern | None:
             and s.files.count("{test}") == 1
             and PurePosixPath(s.files).stem == "{test}"
             and "*" not in s.files
-            and not any(
-                map(is_archive_name, PurePosixPath(s.files).parts[:-1])
-            )  # tests_from looks at names on the disk
         ),
         None,
     )

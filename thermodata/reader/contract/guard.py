@@ -7,13 +7,13 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext, supp
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.archive.packed_by import packed_by
+from thermodata.archive.regular import opened, refuse_what_never_ends
+from thermodata.archive.unpacked import PACKED, held, is_cut
 from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
 from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Reader, Recording, Source
 from thermodata.reader.contract.heeded import Watched
 from thermodata.reader.contract.rules import RECORDING_RULES, broken_rule, sentence
-from thermodata.reader.files.archives import packed_by
-from thermodata.reader.files.regular import opened, refuse_what_never_ends
-from thermodata.reader.files.unpacked import PACKED, held, is_cut
 
 _CUT = "the packed file is cut off: what stands before the cut is read"
 

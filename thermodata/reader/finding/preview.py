@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.archive.members import size_of
+from thermodata.archive.regular import refuse_what_never_ends
 from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import asking, described, guarded, held_for
-from thermodata.reader.files.members import size_of
-from thermodata.reader.files.regular import refuse_what_never_ends
 from thermodata.reader.finding.registry import claims, sniff
 from thermodata.reader.signals.units_met import units_met
 from thermodata.reader.times.clock_leaps import Leap

@@ -13,12 +13,11 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
+from thermodata.archive.packed_by import is_tar, packed_by
+from thermodata.archive.packers import OPEN, Unpacking
+from thermodata.archive.regular import opened
+from thermodata.archive.too_much import most_of
 from thermodata.errors import FormatError
-from thermodata.reader.files.archives import is_tar, packed_by
-from thermodata.reader.files.packers import OPEN, Unpacking
-from thermodata.reader.files.regular import opened
-from thermodata.reader.files.too_much import most_of
-from thermodata.schema.words.sentences import with_count
 
 _ZIP = ".zip"
 ARCHIVES = (_ZIP, ".tar", ".tgz", ".tbz2", ".txz", ".tar.gz", ".tar.bz2", ".tar.xz")
@@ -55,7 +54,9 @@ class Listed:
 
     def why(self) -> str:
         """Why what is refused is."""
-        return with_count([f"{name!r}: {why}" for name, why in self.refused.items()], _SHOWN) or "nothing"
+        told = [f"{name!r}: {why}" for name, why in self.refused.items()]
+        more = f" and {len(told) - _SHOWN} more" if len(told) > _SHOWN else ""
+        return ", ".join(told[:_SHOWN]) + more or "nothing"
 
     def member(self, name: str) -> str:
         """The name of a file as the archive has it. FormatError where it may not be read, FileNotFoundError where there

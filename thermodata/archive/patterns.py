@@ -7,8 +7,8 @@ import os
 import re
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import is_archive_name, listed
 from thermodata.errors import FormatError
-from thermodata.reader.files.members import is_archive_name, listed
 
 
 def in_archives(root: Path, pattern: str) -> list[str]:

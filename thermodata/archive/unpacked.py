@@ -21,13 +21,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from thermodata.archive.members import ARCHIVES, archive_of, is_archive, is_archive_name, listed, same
+from thermodata.archive.packed_by import how_to_unpack, is_tar, packed, packed_by
+from thermodata.archive.packers import OPEN, SUFFIXES
+from thermodata.archive.process_folder import process_folder
+from thermodata.archive.regular import opened
+from thermodata.archive.too_much import MOST_BYTES, most_of, no_room
 from thermodata.errors import FormatError
-from thermodata.reader.files.archives import how_to_unpack, is_tar, packed, packed_by
-from thermodata.reader.files.members import ARCHIVES, archive_of, is_archive, is_archive_name, listed, same
-from thermodata.reader.files.packers import OPEN, SUFFIXES
-from thermodata.reader.files.process_folder import process_folder
-from thermodata.reader.files.regular import opened
-from thermodata.reader.files.too_much import MOST_BYTES, most_of, no_room
 
 _PART = 1 << 20
 _KEPT_BYTES, _KEPT = 4 << 30, 64  # what was unpacked last is likely to be asked for again
