@@ -73,3 +73,21 @@ def test_days_of_which_another_is_the_tests_by_another_zone_are_of_no_test(
     ]
     assert campaign.sources["cnc"].files == "cnc_2026030*.csv"
     assert "from the other sources' UTC" not in text
+
+
+def test_one_test_a_day_at_one_hour_tells_no_zone_beside_files_of_whole_days(tmp_path: Path, say: Say) -> None:
+    """At 07:00 UTC each day, and 08:00 by the control: that its file begins 7 h before says nothing of its zone."""
+    (tmp_path / "days").mkdir()
+    text = drafted(tmp_path / "days", say, [8 * 60], 1, (0, 1440))
+    assert "-7 h from the other sources' UTC if each log begins with its test; they are longer" in text
+    assert "-7 to +13 h fit as well" in text
+    assert "is the clock wrong" not in text
+    declared = text.replace("{reader: table}   # ? timezone?", "{reader: table, timezone: Europe/Prague}   #")
+    (tmp_path / "days/campaign.yaml").write_text(declared)
+    assert say("init", tmp_path / "days", "--force").code == 0
+    assert "timezone: Europe/Prague}" in (tmp_path / "days/campaign.yaml").read_text()
+
+
+def test_logs_that_are_no_longer_than_their_tests_tell_their_zone_as_before(tmp_path: Path, say: Say) -> None:
+    text = drafted(tmp_path, say, [8 * 60], 2, (8 * 60, 8 * 60 + 245))
+    assert "+2 h from the other sources' UTC: so are Europe/Helsinki and others" in text

@@ -5,7 +5,10 @@ from __future__ import annotations
 import bz2
 import gzip
 import hashlib
+import io
+import lzma
 import struct
+import tarfile
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
@@ -14,11 +17,11 @@ from typing import Any
 
 import pytest
 
+from thermodata.archive import too_much, unpacked
 from thermodata.draft.make import draft_files
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files import too_much, unpacked
 from thermodata.reader.finding.registry import reader
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
@@ -66,22 +69,30 @@ def _nothing_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[N
 
 def test_packed_logs_are_those_that_were_packed(tmp_path: Path, say: Say) -> None:
     texts = {f"heat{k}.csv": log(k, 20 + k) for k in (1, 2, 3)}
-    for name in ("loose", "gz", "bz2", "mixed"):
+    for name in ("loose", "gz", "bz2", "xz", "mixed"):
         (tmp_path / name).mkdir()
     for name, text in texts.items():
         (tmp_path / "loose" / name).write_text(text)
         (tmp_path / "gz" / f"{name}.gz").write_bytes(gzip.compress(text.encode()))
         (tmp_path / "bz2" / f"{name}.bz2").write_bytes(bz2.compress(text.encode()))
+        half = len(text) // 2  # as pixz and 'cat' have it, several streams
+        streams = [lzma.compress(part) for part in (text[:half].encode(), text[half:].encode())]
+        (tmp_path / "xz" / f"{name}.xz").write_bytes(streams[0] + bytes(8) + streams[1])
     (tmp_path / "mixed/heat1.csv").write_text(texts["heat1.csv"])
     for name in ("heat2.csv", "heat3.csv"):
         (tmp_path / "mixed" / f"{name}.gz").write_bytes(gzip.compress(texts[name].encode()))
     zipped(tmp_path / "one" / "march.zip", dict(texts))
+    for name in ("march.tar", "march.tar.gz", "march.tgz", "march.tbz2", "march.tar.xz"):
+        tarred(tmp_path / f"one_{name}" / name, dict(texts))
     for name, text in texts.items():
+        tarred(tmp_path / "each_tar" / f"{name[:5]}.tar.gz", {"./log.csv": text})
         zipped(tmp_path / "each" / f"{name[:5]}.zip", {"log.csv": text})
     loose = rows_of(tmp_path / "loose", say)
     assert len(loose) == 360
     assert {test for test, *_ in loose} == {"heat1", "heat2", "heat3"}
-    for name in ("gz", "bz2", "mixed", "one", "each"):
+    others = sorted(p.name for p in tmp_path.iterdir() if p.is_dir() and p.name not in ("tmp", "loose", "loose.store"))
+    assert len(others) == 12
+    for name in others:
         assert rows_of(tmp_path / name, say) == loose, name
 
 
@@ -165,6 +176,7 @@ def locked(path: Path) -> Path:
     return path
 
 
+WAYS = {".gz": "w:gz", ".tgz": "w:gz", ".tbz2": "w:bz2", ".xz": "w:xz"}
 BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
     "leads out": (lambda p: zipped(p / "a.zip", {"../heat1.csv": log(1)}), "its name leads elsewhere"),
     "absolute": (lambda p: zipped(p / "a.zip", {"/etc/heat1.csv": log(1)}), "its name leads elsewhere"),
@@ -181,10 +193,25 @@ BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
     "bomb": (lambda p: zipped(p / "a.zip", {"heat1.csv": bytes(4_000_000)}), "unpacks to more than logs do"),
     "cut": (lambda p: cut(zipped(p / "a.zip", {"heat1.csv": log(1)})), "an archive that can't be read"),
     "gz bomb": (lambda p: written(p / "a.csv.gz", gzip.compress(bytes(4_000_000))), "unpacks to more than a log does"),
-    "gz cut": (
-        lambda p: written(p / "a.csv.gz", gzip.compress(log(1).encode())[:-20]),
+    "gz cut at its head": (
+        lambda p: written(p / "a.csv.gz", gzip.compress(log(1).encode())[:14]),
         "a packed file that is damaged",
     ),
+    "tar leads out": (lambda p: tarred(p / "a.tar.gz", {"../heat1.csv": log(1)}), "its name leads elsewhere"),
+    "tar link": (lambda p: linked(p / "a.tgz"), "it is a link, or no plain file"),
+    "tar bomb": (lambda p: tarred(p / "a.tgz", {"heat1.csv": "0" * 4_000_000}), "unpacks to more than logs do"),
+    "tar cut": (lambda p: cut(tarred(p / "a.tar.gz", {"heat1.csv": log(1)})), "an archive that can't be read"),
+    "tar of a zip": (
+        lambda p: tarred(p / "a.tar", {"b.csv.gz": gzip.compress(log(1).encode())}),
+        "packed more than once",
+    ),
+    "xz of much memory": (
+        lambda p: written(
+            p / "a.csv.xz", lzma.compress(log(1).encode(), filters=[{"id": lzma.FILTER_LZMA2, "dict_size": 1 << 29}])
+        ),
+        "a packed file that is damaged",
+    ),
+    "7z": (lambda p: written(p / "a.7z", b"7z\xbc\xaf\x27\x1c" + bytes(60)), "7z x a.7z"),
     "gz wrong": (
         lambda p: written(p / "a.csv.gz", gzip.compress(log(1).encode())[:-8] + bytes(8)),
         "a packed file that is damaged",
@@ -194,6 +221,28 @@ BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
         "packed more than once",
     ),
 }
+
+
+def tarred(path: Path, files: dict[str, str | bytes]) -> Path:
+    """An archive, packed as its name says."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    way: Any = WAYS.get(path.suffix, "w")
+    with tarfile.open(path, way) as archive:
+        for name, content in files.items():
+            data = content.encode() if isinstance(content, str) else content
+            member = tarfile.TarInfo(name)
+            member.size = len(data)
+            archive.addfile(member, io.BytesIO(data))
+    return path
+
+
+def linked(path: Path) -> Path:
+    """An archive of a name that stands for another file."""
+    with tarfile.open(path, "w:gz") as archive:
+        member = tarfile.TarInfo("heat1.csv")
+        member.type, member.linkname = tarfile.SYMTYPE, "/etc/passwd"
+        archive.addfile(member)
+    return path
 
 
 def written(path: Path, data: bytes) -> Path:
@@ -270,6 +319,15 @@ def test_a_table_of_tests_in_the_archive_tells_their_conditions(tmp_path: Path, 
     assert found == {"S3000_1": "off", "S6000_2": "on", "S9000_3": "off"}
 
 
+def test_names_of_one_pattern_in_an_archive_become_tests_from(tmp_path: Path, say: Say) -> None:
+    names = {f"S{n}_F{100 * k}_{k}.csv": log(k).replace("3000", str(n)) for k, n in enumerate((3000, 6000, 9000), 1)}
+    for name, text in names.items():
+        written(tmp_path / "loose/day" / name, text.encode())
+    zipped(tmp_path / "zip/day.zip", dict(names))
+    assert rows_of(tmp_path / "zip", say) == rows_of(tmp_path / "loose", say)
+    assert 'files: "day.zip/S{speed}_F{feed}_{nr}.csv"' in (tmp_path / "zip/campaign.yaml").read_text()
+
+
 def test_an_archive_of_an_office_file_and_one_of_nothing_are_no_logs(tmp_path: Path) -> None:
     (tmp_path / "heat1.csv").write_text(log(1))
     zipped(tmp_path / "report.docx", {"[Content_Types].xml": "<Types/>", "word/document.xml": "<w/>"})
@@ -277,3 +335,29 @@ def test_an_archive_of_an_office_file_and_one_of_nothing_are_no_logs(tmp_path: P
     draft = draft_files(tmp_path).draft
     assert [t.id for t in draft.tests] == ["heat1"]
     assert {p for p, _ in draft.not_used} == {"report.docx", "empty.zip"}
+
+
+@pytest.mark.parametrize(("pack", "end"), [(gzip.compress, "gz"), (bz2.compress, "bz2"), (lzma.compress, "xz")])
+def test_a_packed_log_that_is_cut_off_is_read_to_its_cut_as_one_that_is_not_packed(
+    tmp_path: Path, say: Say, pack: Callable[[bytes], bytes], end: str
+) -> None:
+    lab = tmp_path / "lab"
+    lab.mkdir()
+    rows = [f"2026-03-01T08:00:00.{i:06d}Z,{hashlib.md5(bytes([i % 251])).hexdigest()}{i}" for i in range(60_000)]
+    whole = ("time,serial\n" + "\n".join(rows) + "\n").encode()
+    packed = pack(whole)
+    (lab / f"heat1.csv.{end}").write_bytes(packed[: len(packed) * 9 // 10])
+    (lab / f"heat2.csv.{end}").write_bytes(packed)
+    assert say("init", lab).code == 0
+    text = (lab / "campaign.yaml").read_text()
+    assert f"# damaged: heat1.csv.{end}: the packed file is cut off: what stands before the cut is read" in text
+    assert "heat2.csv" not in text.split("# damaged", 1)[1]
+    store = Store(tmp_path / "store", create=True)
+    summary = ingest(store, lab / "campaign.yaml")
+    told = [loss for loss in summary.losses if "the packed file is cut off" in str(loss)]
+    assert len(told) == 1
+    assert f"the end of heat1.csv.{end}" in str(told)
+    with store.reader() as con:
+        found = dict(con.execute("select source_path, rows from file where layer = 'raw'").fetchall())
+    assert found[f"heat2.csv.{end}"] == 60_000
+    assert 30_000 < found[f"heat1.csv.{end}"] < 60_000

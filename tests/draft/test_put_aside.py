@@ -28,6 +28,8 @@ tests:
   - {id: warm, kind: other, role: calibration, files: {log: FILES}}
 """
 
+ZSTANDARD = b"\x28\xb5\x2f\xfd" + bytes(40)
+
 
 def piece(number: int) -> str:
     """Of 60 rows that count from 0, in which the temperature says which of the log they are."""
@@ -81,20 +83,20 @@ def test_undated_pieces_are_put_end_to_end_as_listed_or_the_oldest_first(
 def test_a_packed_piece_of_a_log_is_asked_for(tmp_path: Path, say: Say) -> None:
     (tmp_path / "a.log").write_text(dated(10))
     (tmp_path / "a.log.1").write_text(dated(9))
-    (tmp_path / "a.log.2.xz").write_bytes(lzma.compress(dated(8).encode()))
+    (tmp_path / "a.log.2.zst").write_bytes(ZSTANDARD)
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "campaign.yaml").read_text()
-    assert "'a.log.2.xz' is a piece of a.log too, packed and not read: unpack and draft again" in text
+    assert "'a.log.2.zst' is a piece of a.log too, packed and not read: unpack and draft again" in text
 
 
 @pytest.mark.parametrize("read", ["log-20260302.csv", "log.csv", "log_2026-03-02.csv", "log.csv.1"])
 def test_a_packed_log_whose_name_has_another_day_is_asked_for(tmp_path: Path, say: Say, read: str) -> None:
     (tmp_path / read).write_text(dated(10))
-    for name in ("log-20260301.csv.xz", "log-20260228.csv.xz"):
-        (tmp_path / name).write_bytes(lzma.compress(dated(8).encode()))
+    for name in ("log-20260301.csv.zst", "log-20260228.csv.zst"):
+        (tmp_path / name).write_bytes(ZSTANDARD)
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "campaign.yaml").read_text()
-    assert f"'log-20260228.csv.xz', 'log-20260301.csv.xz' are logs like {read}, packed and not read: unpack" in text
+    assert f"'log-20260228.csv.zst', 'log-20260301.csv.zst' are logs like {read}, packed and not read: unpack" in text
 
 
 def test_a_packed_file_of_another_name_is_only_listed(tmp_path: Path, say: Say) -> None:
@@ -107,10 +109,10 @@ def test_a_packed_file_of_another_name_is_only_listed(tmp_path: Path, say: Say) 
 
 
 def test_a_folder_of_nothing_but_packed_logs_says_to_unpack_them(tmp_path: Path, say: Say) -> None:
-    (tmp_path / "log.csv.1.xz").write_bytes(lzma.compress(dated(8).encode()))
+    (tmp_path / "log.csv.1.zst").write_bytes(ZSTANDARD)
     say("init", tmp_path)
     text = (tmp_path / "campaign.yaml").read_text()
-    assert "? log.csv.1.xz is packed: unpack it and what is packed beside it" in text
+    assert "? log.csv.1.zst is packed: unpack it and what is packed beside it" in text
     assert "what wrote" not in text
 
 

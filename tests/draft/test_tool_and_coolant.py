@@ -154,3 +154,29 @@ def test_other_texts_and_heads_say_nothing(tmp_path: Path) -> None:
     tests = drafted(tmp_path)
     assert [t.conditions for t in tests.values()] == [{"speed": "6000 rpm"}] * 2
     assert not any("notes.txt" in t.kind.comment for t in tests.values())
+
+
+@pytest.mark.parametrize(
+    ("notes", "coolant"),
+    [
+        ("dankai:\n  tool D50\n  - coolant on\n\nsweep: no coolant\n", {"dankai": "on", "sweep": "off"}),
+        ("# 0812_dankai\n\n- coolant on\n\n# Hall\n\n- no coolant\n", {"dankai": "on", "sweep": None}),
+        ("dankai: coolant on\nall of them:\n  no coolant\n", {"dankai": "on", "sweep": None}),
+        # the nearest that say nothing of one test
+        ("dankai\ncoolant on\n", {"dankai": None, "sweep": None}),
+        ("kai:\n  coolant on\n", {"dankai": None, "sweep": None}),
+        ("rest:\n  coolant on\n", {"dankai": None, "sweep": None}),
+    ],
+)
+def test_a_heading_names_a_test_without_the_day_before_its_name(
+    tmp_path: Path, notes: str, coolant: dict[str, str | None]
+) -> None:
+    for k, name in enumerate(("0812_dankai", "0813_sweep", "0814_rest", "0815_rest"), 1):
+        log(tmp_path / f"{name}.csv", day=k)
+    (tmp_path / "notes.txt").write_text(notes, "utf-8")
+    tests = drafted(tmp_path)
+    assert len(tests) == 4
+    assert {
+        name: tests[test].conditions.get("coolant") for test in tests for name in coolant if name in test
+    } == coolant
+    assert not any("coolant" in t.conditions for name, t in tests.items() if "rest" in name)

@@ -282,6 +282,48 @@ tests: [{id: warm, kind: spindle, role: calibration}]
     assert views[0][0].sql(said).fetchall() == views[1][0].sql(said).fetchall()
 
 
+@pytest.mark.parametrize("step", ["30 s", "logged"])
+@pytest.mark.parametrize("suffix", ["xlsx", "mat", "mf4"])
+def test_short_names_and_those_of_one_test_come_back_as_they_are(tmp_path: Path, suffix: str, step: str) -> None:
+    """'dZ' of 'Eddy/Z' is no 'Eddy_Z_dZ'; the flags beside it are none of the machine's states."""
+    from thermodata.cli import main
+
+    lab, back = tmp_path / "lab", tmp_path / "back"
+    lab.mkdir()
+    back.mkdir()
+    t = np.datetime64("2026-03-01T08:00:00") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
+    for test, wear in (("cold", ""), ("warm", ",Eddy/X [um]")):
+        rows = [
+            f"{a},{'' if i == 30 else 22 + i / 100},{i / 50:.2f},{'' if i == 9 else i / 40}" + f",{i / 30}" * bool(wear)
+            for i, a in enumerate(t)
+        ]
+        (lab / f"{test}.csv").write_text(f"time,T06 [degC],max [degC],Eddy/Z [um]{wear}\n" + "\n".join(rows) + "\n")
+    (lab / "campaign.yaml").write_text("""
+schema: thermodata/campaign/1
+id: c
+sources: {daq: {reader: table, files: "{test}.csv", timezone: UTC}}
+channels:
+  T1: {source: daq, signal: T06, quantity: temperature, unit: degC, at: spindle.bearing.front}
+  max: {source: daq, signal: max, quantity: temperature, unit: degC, at: bed}
+  dZ: {source: daq, signal: Eddy/Z, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: s}
+  dX: {source: daq, signal: Eddy/X, quantity: displacement, unit: um, axis: X, at: tcp, calibration: x, only_in: [warm]}
+calibrations:
+  s: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}
+  x: {kind: scale, axis: X, gain: 1 um/um, facing: +X, increases_with: gap}
+tests: [{id: cold, kind: spindle, role: calibration}, {id: warm, kind: spindle, role: calibration}]
+""")
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, lab / "campaign.yaml")
+    for test in ("cold", "warm"):
+        export_test(StoreView(store), "c", test, back / f"{test}.{suffix}", step=step)
+    assert main(["--store", str(tmp_path / "other"), "init", str(back)]) == 0
+    again = Store(tmp_path / "again", create=True)
+    ingest(again, back / "campaign.yaml")
+    said = "select test, channel, quantity, unit, sign from channel order by all"
+    own, other = (StoreView(s).sql(said).fetchall() for s in (store, again))
+    assert other == own
+
+
 def test_sheets_have_names_that_differ_whatever_streams_are_called() -> None:
     names = _sheet_names(["a/b", "a_b", "Z", "z", "about", "x" * 40, "x" * 41, "about"])
     assert len({n.casefold() for n in names}) == len(names)

@@ -16,12 +16,12 @@ from typing import Any
 
 import pytest
 
+from thermodata.archive import unpacked
+from thermodata.archive.members import each_in
+from thermodata.archive.unpacked import forget_unpacked, held
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files import unpacked
-from thermodata.reader.files.members import each_in
-from thermodata.reader.files.unpacked import forget_unpacked, held
 from thermodata.reader.finding.registry import reader
 from thermodata.testing.reader.apart import together
 

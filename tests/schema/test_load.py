@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -102,6 +103,20 @@ def _from_names(tmp_path: Path, extra: str = "") -> Path:
         "  units: {speed: rpm, feed: mm/min, air: degC}\n  set: {kind: spindle, role: calibration}\n"
     )
     return path
+
+
+@pytest.mark.parametrize("archive", ["raw.zip", "raw.tar.gz"])
+def test_conditions_come_from_names_and_a_table_in_an_archive(tmp_path: Path, archive: str) -> None:
+    loose = _from_names(tmp_path)
+    want = load_campaign(loose)
+    way = "gztar" if archive.endswith("gz") else "zip"
+    (tmp_path / "tests.csv").rename(tmp_path / "raw" / "tests.csv")
+    shutil.make_archive(str(tmp_path / "raw"), way, tmp_path / "raw")
+    shutil.rmtree(tmp_path / "raw")
+    loose.write_text(loose.read_text().replace('"raw/', f'"{archive}/').replace("tests.csv", f"{archive}/tests.csv"))
+    found = load_campaign(loose)
+    assert {t.id: t.conditions for t in found.tests} == {t.id: t.conditions for t in want.tests}
+    assert {t.files["nc"] for t in found.tests} == {f"{archive}/S3000_F500_07.csv", f"{archive}/S6000_F750_8.csv"}
 
 
 def test_conditions_come_from_file_names_and_the_table(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -108,7 +108,7 @@ def read_content(view: StoreView, campaign: str, test: str, step: str) -> Conten
         str(name): {k: str(v) for k, v in zip(_INFO, values, strict=True) if v not in (None, "")}
         for name, *values in found
     }
-    streams = _logged(view, campaign, test) if step == LOGGED else [_binned(view, campaign, test, step)]
+    streams = _logged(view, campaign, test) if step == LOGGED else [_binned(view, campaign, test, step, channels)]
     absolute = clock == "absolute" and start_ns is not None
     return Content(
         campaign,
@@ -130,9 +130,10 @@ def _plain(conditions: Any) -> dict[str, float | str]:
     }
 
 
-def _binned(view: StoreView, campaign: str, test: str, step: str) -> Stream:
+def _binned(view: StoreView, campaign: str, test: str, step: str, channels: Collection[str]) -> Stream:
+    """Without the columns of channels that other tests have."""
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
-    values = {str(n): _column(table.column(n)) for n in table.column_names if n not in ("campaign", "test", "t_s", "t")}
+    values = {str(n): _column(table.column(n)) for n in table.column_names if n in channels}
     return Stream("grid", np.asarray(table.column("t_s").to_numpy(), np.float64), values, {})
 
 

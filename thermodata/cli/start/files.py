@@ -25,9 +25,9 @@ class _LogPath(click.Path):
     """A path of a file, or of one in an archive: 'day.zip/run.csv'."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        from thermodata.reader.files.members import archive_of
+        from thermodata.archive.members import archive_of
 
-        if ".zip" in str(value).lower() and archive_of(Path(value)) is not None:
+        if archive_of(Path(value)) is not None:
             return Path(value)
         return super().convert(value, param, ctx)
 

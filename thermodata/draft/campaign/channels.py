@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import replace
 
+from thermodata.draft.campaign.of_exports import as_exported
 from thermodata.draft.campaign.orientation import calibration_of, moved_too, reads_a_length, sign_of
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.campaign.wished_names import wished_name, with_series
@@ -32,7 +33,15 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
-from thermodata.schema.agreed.exported import OF_TEST, PLAIN, UNSIGNED, is_own_export, own_sign
+from thermodata.schema.agreed.exported import (
+    OF_TEST,
+    UNSIGNED,
+    flags_of,
+    is_own,
+    is_own_export,
+    own_channel,
+    own_sign,
+)
 from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.sentences import counted, listed, with_count
 
@@ -55,9 +64,12 @@ def channels_of(
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
-    exported = is_own_export([split_unit(one.signal.name)[0] for one in found]) or any(map(_own_sign, found))
+    names = {one.signal.name for one in found}
+    exported = is_own_export([split_unit(n)[0] for n in names]) or any(
+        is_own(one.signal.name, one.signal.properties) for one in found
+    )
     several = len({one.signal.stream for one in found}) > 1
-    made, seen, beside, of_test = [], set(), list[str](), set[str]()
+    made, seen, beside, of_test, flags = [], set(), list[str](), set[str](), list[str]()
     for one in found[:_MOST_SIGNALS]:
         signal, twin = one.signal, one.signal.name in twice
         if signal.name in seen and not twin:
@@ -66,7 +78,11 @@ def channels_of(
         if exported and (last := parts_of(split_unit(signal.name)[0])[-1]) in OF_TEST:
             of_test.add(last)
             continue
+        if exported and flags_of(signal.name) in names:
+            flags.append(one.written)
+            continue
         said, note = _said(one)
+        said = as_exported(said, signal)
         if (why := _why_left_out(one, said, found)) is not None:
             notes.append(f"{group.source}: '{one.written}' {why}: left out")
             continue
@@ -74,8 +90,8 @@ def channels_of(
             beside.append(one.written)
             continue
         jump, said = _with_jump(one, said, jumps, twin)
-        wished = wished_name(with_series(signal), said)
-        name = channel_name(wished.removesuffix(PLAIN).replace(UNSIGNED, "") if exported else wished, taken)
+        own = own_channel(split_unit(signal.name)[0]) if exported else None
+        name = channel_name(own or wished_name(with_series(signal), said), taken)
         turned = exported and said.axis is not None and _is_signed(one)
         calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
         only, lacking = _tests_with(one, group)
@@ -98,6 +114,11 @@ def channels_of(
         say = "says" if len(of_test) == 1 else "say"
         left = f"; {listed(sorted(of_test))} {say} of which test: left out" if of_test else ""
         notes.append(f"{group.source}: an export of thermodata{left}")
+    if flags:
+        notes.append(
+            f"{group.source}: {with_count(flags, 4)}: left out, for they hold the flags of the store that the export "
+            "is of; ingest flags anew"
+        )
     if beside:
         shown = with_count(beside, 4)
         notes.append(

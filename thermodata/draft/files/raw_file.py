@@ -9,14 +9,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from thermodata.archive.members import size_of
+from thermodata.archive.unpacked import held
 from thermodata.draft.files.letters_of_files import common, letters_of
 from thermodata.draft.files.sample import Sample, sample_of
 from thermodata.draft.files.sheets import sheet_like, sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.members import size_of
-from thermodata.reader.files.unpacked import held
 from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
@@ -17,7 +17,7 @@ from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
-from thermodata.schema.agreed.exported import is_own_about, sign_key
+from thermodata.schema.agreed.exported import is_own_about, said_key
 from thermodata.schema.units.quantity import is_unit
 from thermodata.schema.words.sentences import with_count
 
@@ -25,6 +25,7 @@ IN_LEGEND = "described_in"  # the property of a signal that says where its descr
 TOLD_TOO = "described_there_too"  # that says what else stands there
 _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3
 _SHOWN = 4
+_OWN = ("quantity", "axis", "at", "sign")
 _ONCE = 3  # of so many names one may be named again: a list of what happened names most
 _LISTED = re.compile(r"\W*(?P<name>[\w.]+)\s*(?:->|=>|→|=|:)\s*(?P<text>\S.*)")  # a line of 'CH1 -> bearing [degC], X'
 _AXES = frozenset("XYZUVWABC")
@@ -34,15 +35,16 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 
 @dataclass(frozen=True, slots=True)
 class Said:
-    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. sign:
-    that a workbook of our own says. others: what more lines say of it that is something else."""
+    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. own:
+    key of the table `channel` -> what a workbook of our own says. others: what more lines say of it that is something
+    else."""
 
     name: str
     text: str
     unit: str | None = None
     axis: str | None = None
-    sign: str | None = None
     others: tuple[str, ...] = ()
+    own: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def described(self) -> str:
@@ -64,11 +66,12 @@ class Legend:
 
 def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     """The logs, their signals described by the first table that names them; and a note on it. A description that stands
-    in a log itself counts more."""
+    in a log itself counts more. What a workbook of our own says is of its own sheets."""
     names = {_word(s.name) for f in found.logs for s in f.signals}
     logs_of_many = [f for f in found.logs if len(f.signals) > 1]  # a file of one may be called as its signal is
     tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
+    own: dict[str, Legend] = {}
     for file in dict.fromkeys((*found.others, *books)):
         path = there(folder / file)
         if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
@@ -76,10 +79,16 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
         lists = [] if path.suffix.lower() in WORKBOOKS else [listed(path, _MOST_ROWS)]
         for rows in (*grids_of(path, _MOST_ROWS), *lists):
             if (legend := _legend(file, rows, names, tests)) is not None:
+                if file in books and any(s.own for s in legend.says.values()):
+                    own[file] = legend
+                    break
                 logs = tuple(_described(f, legend) for f in found.logs)
                 left = tuple(x for x in found.ignored if x[0] != file)
                 return replace(found, logs=logs, ignored=left), [legend.note()]
-    return found, []
+    if not own:
+        return found, []
+    logs = tuple(_described(f, own[str(f.path)]) if str(f.path) in own else f for f in found.logs)
+    return replace(found, logs=logs), [next(iter(own.values())).note()]
 
 
 def _word(name: str) -> str:
@@ -128,7 +137,8 @@ def _of_our_own(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str
         told = {head: cell for head, cell in zip(heads, row, strict=False) if cell}
         name, unit = told["channel"], told.get("unit")
         text = split_unit(told.get("signal", name))[0]
-        found[name.casefold()] = Said(name, text, None if unit == "1" else unit, told.get("axis"), told.get("sign"))
+        own = {key: told[key] for key in _OWN if key in told}
+        found[name.casefold()] = Said(name, text, None if unit == "1" else unit, told.get("axis"), own=own)
     return found
 
 
@@ -183,7 +193,7 @@ def _described(file: RawFile, legend: Legend) -> RawFile:
         if said is None or signal.properties.get("description"):
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}
-        of |= {sign_key(signal.name): said.sign} if said.sign else {}
+        of |= {said_key(signal.name, key): text for key, text in said.own.items()}
         of |= {TOLD_TOO: "', '".join(said.others)} if said.others else {}
         # words of a switch have none, and what the log says of its numbers counts more
         return replace(signal, properties=of, unit=signal.unit or (said.unit if signal.dtype != "str" else None))

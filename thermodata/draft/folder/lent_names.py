@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.unpacked import unpacked
 from thermodata.draft.files.raw_file import Asked, RawFile, described_files, sample_of_file
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
 from thermodata.reader.files.rotated import unrotated
-from thermodata.reader.files.unpacked import unpacked
 from thermodata.reader.finding.registry import reader
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.schema.words.sentences import counted

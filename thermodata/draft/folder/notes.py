@@ -4,15 +4,16 @@ a row of a table in README.md, '# tool: HSK63' above the rows."""
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.unpacked import held
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
 from thermodata.errors import FormatError
-from thermodata.reader.files.unpacked import held
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.file.encoding import decode_head
 
@@ -20,6 +21,8 @@ _NOTES = frozenset({".txt", ".md", ".rst", ".log", ""})
 _LARGEST, _HEAD, _MOST_LINES = 100_000, 4096, 40  # bytes of a text, of the head of a log; lines of a head
 _SHOWN = 80
 _CELLS = re.compile(r"[\t|;,]")
+_NUMBERS = re.compile(r"^[\d._-]+[_\- .]|[_\- .][\d._-]+$")
+_SHORTEST = 3  # letters of a name without its number
 _MARKS = " \t-*•#>"
 _TAKEN = ("speed", "feed", "air")
 
@@ -51,11 +54,11 @@ def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[Ra
 
 
 def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
-    called = {name: test for test, files in tests.items() for name in _names(test, files)}
+    called = _but_numbers(tests) | {name: test for test, files in tests.items() for name in _names(test, files)}
     lines: dict[str, list[Note]] = {}
     for path in texts:
         head: list[str] = []
-        for line in text_of_notes(folder, path).splitlines():
+        for line in _with_headings(text_of_notes(folder, path).splitlines(), called):
             cells = [c.strip() for c in line.strip(" |").split("|")] if "|" in line else []
             first, rest = _first(line) if len(cells) < 2 else (cells[0].casefold(), ", ".join(cells[1:]))
             test = called.get(first)
@@ -84,6 +87,32 @@ def _names(test: str, files: Sequence[RawFile]) -> set[str]:
     """What a line may begin with to be of a test."""
     own = {n.casefold() for f in files if len(files) == 1 for n in (f.path.name, f.path.stem)}
     return {test.casefold(), *own}
+
+
+def _but_numbers(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, str]:
+    """What is called by a name that is a test's but for the day or number before or behind it: '0812_dankai' alone is
+    'dankai'."""
+    bare = {test: _NUMBERS.sub("", test).casefold() for test in tests}
+    count = Counter(bare.values())
+    return {name: test for test, name in bare.items() if count[name] == 1 and sum(map(str.isalpha, name)) >= _SHORTEST}
+
+
+def _with_headings(lines: Sequence[str], called: Mapping[str, str]) -> list[str]:
+    """The lines, what stands under the name of a test ('run01:', '## run01') in one with it."""
+    found: list[str] = []
+    under = False
+    for line in lines:
+        bare, (first, rest) = line.strip(), _first(line)
+        if not bare:
+            under = under and found[-1].endswith(":")
+        elif first in called or bare.startswith("#") or bare.endswith(":"):
+            under = first in called and not rest and (bare.startswith("#") or bare.endswith(":"))
+            found.append(f"{first}:" if under else line)
+        elif under:
+            found[-1] += f"{' ' if found[-1].endswith(':') else ', '}{bare.strip(_MARKS)}"
+        else:
+            found.append(line)
+    return found
 
 
 def _first(line: str) -> tuple[str, str]:

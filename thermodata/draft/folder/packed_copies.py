@@ -7,10 +7,10 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import cache
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import archive_of, size_of
+from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError
-from thermodata.reader.files.members import archive_of, size_of
 from thermodata.reader.files.rotated import as_unpacked
-from thermodata.reader.files.unpacked import held
 from thermodata.schema.words.sentences import with_count
 
 _SHOWN = 3

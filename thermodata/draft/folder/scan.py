@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import size_of
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.files.raw_file import (
     RawFile,
@@ -27,7 +28,6 @@ from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
 from thermodata.draft.folder.packed_copies import by_archive, packed_copies
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
-from thermodata.reader.files.members import size_of
 from thermodata.reader.files.stores import within_stores
 from thermodata.reader.finding.registry import files_in
 from thermodata.schema.agreed.left_out import CANT_READ

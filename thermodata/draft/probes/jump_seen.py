@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import is_there, size_of
 from thermodata.calibration.jump.plateaus import Step
 from thermodata.draft.files.raw_file import sampled_file
 from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D
-from thermodata.reader.files.members import is_there, size_of
 from thermodata.reader.finding.match import match_signal
 from thermodata.schema.strict.lines import read_document
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from thermodata.archive.members import standing
 from thermodata.draft.files.day_in_name import day_of_name
 from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_file
 from thermodata.draft.folder.group import tests_of
@@ -16,7 +17,6 @@ from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.times.hints import fitting_others, swapped
 from thermodata.errors import ThermodataError
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.members import standing
 from thermodata.reader.finding.registry import reader
 from thermodata.schema.words.sentences import with_count
 

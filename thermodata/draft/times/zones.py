@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from zoneinfo import ZoneInfo
 
@@ -17,6 +18,7 @@ from thermodata.reader.times.step_back import likely_cause
 from thermodata.schema.words.sentences import with_count
 
 _HOUR_NS = 3_600_000_000_000
+_MOST_HOURS, _NEAR_NS = 14, 60 * 10**9  # that a zone is ahead; by which a log may begin after its test
 _FILES, _RUNS = 3, 3  # that a question names
 _WORD = re.compile(rf"{SAYS} '([^']*)'")
 _ZONES = (
@@ -43,21 +45,43 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
     said = "" if head is None else f"; {head}{_said_elsewhere(group)}"
     likely = named_zone(head, [f.path for f in group.files])
-    whole = _ahead(group, groups)
-    if whole is None:
+    each = _each_ahead(group, groups)
+    if each is None:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
         return asked + which_pass(group, groups, likely)
-    asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
-    return f"{asked}{_changes(group, groups)}{_zones_of(whole, likely, group)}{said}"
+    asked = f"timezone? local times, {_shown({e.hours for e in each})} from the other sources' UTC"
+    if more := _as_well(each):
+        hours = sorted({e.hours + m for e in each for m in (0, *more)})
+        longer = (
+            f" if each log begins with its test; they are longer, and {hours[0]:+d} to {hours[-1]:+d} h fit as well"
+        )
+        return f"{asked}{longer}. {likely}{said}"
+    return f"{asked}{_changes(each)}{_zones_of([(e.hours, e.begin_ns) for e in each], likely, group)}{said}"
 
 
-def _changes(group: Group, groups: Sequence[Group]) -> str:
+@dataclass(frozen=True, slots=True)
+class _Ahead:
+    """A test's local log beside the UTC of another source. hours: by which it is ahead if both begin at once; begin_ns:
+    in UTC; name: of the log; holds: by how many more hours it could be ahead, and hold all of the test."""
+
+    hours: int
+    begin_ns: int
+    name: str
+    holds: frozenset[int]
+
+
+def _as_well(each: Sequence[_Ahead]) -> frozenset[int]:
+    """By how many hours more than where logs begin with their tests all of them could be ahead."""
+    return frozenset.intersection(*(e.holds for e in each))
+
+
+def _changes(each: Sequence[_Ahead]) -> str:
     """From which log on local times are another number of hours ahead than in those before; '' where all are alike."""
     runs: list[tuple[int, list[tuple[int, str]]]] = []
-    for hours, begin, name in sorted(_each_ahead(group, groups) or (), key=lambda each: each[1]):
-        if not runs or runs[-1][0] != hours:
-            runs.append((hours, []))
-        runs[-1][1].append((begin, name))
+    for one in sorted(each, key=lambda e: e.begin_ns):
+        if not runs or runs[-1][0] != one.hours:
+            runs.append((one.hours, []))
+        runs[-1][1].append((one.begin_ns, one.name))
     if len(runs) < 2:
         return ""
     first, *others = (
@@ -87,18 +111,12 @@ def _said_elsewhere(group: Group) -> str:
     return f"; {with_count(others, _FILES)}"
 
 
-def _ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int]] | None:
-    """(by how many hours its local times are ahead of the UTC of another source, when [ns]) of each test; None where no
-    other tells it, or not of most tests."""
-    each = _each_ahead(group, groups)
-    return None if each is None else [(hours, begin) for hours, begin, _ in each]
-
-
-def _each_ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int, str]] | None:
-    """The same with the name of each test's first log."""
+def _each_ahead(group: Group, groups: Sequence[Group]) -> list[_Ahead] | None:
+    """How far the local times of each test are ahead of the UTC of another source; None where no other tells it, or not
+    of most tests."""
     of = Counter(f.path for files in group.tests.values() for f in files[:1])
     pairs = [
-        (f.start_ns, begin, f.path.name)
+        (f, f.start_ns, begin, end_of(g.tests[test]))
         for g in groups
         if g is not group and not any(f.local for f in g.files)
         for test, files in group.tests.items()
@@ -107,10 +125,26 @@ def _each_ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int, s
         if of[f.path] == 1  # that of several tests begins with none of them
         if f.start_ns is not None and (begin := begin_of(g.tests[test])) is not None
     ]
-    whole = [(round(h), b, name) for a, b, name in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
-    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _, _ in whole) > 14:
+    whole = [
+        _Ahead(round(h), begin, file.path.name, _held(file, start, begin, end) - {round(h)})
+        for file, start, begin, end in pairs
+        if abs((h := (start - begin) / _HOUR_NS) - round(h)) < 0.25
+    ]
+    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(e.hours) for e in whole) > _MOST_HOURS:
         return None
-    return whole
+    return [replace(e, holds=frozenset(h - e.hours for h in e.holds)) for e in whole]
+
+
+def _held(file: RawFile, start_ns: int, begin_ns: int, end_ns: int | None) -> frozenset[int]:
+    """The numbers of hours ahead by which a local log holds all of a test."""
+    last = file.sample.last_ns
+    if last is None or end_ns is None:
+        return frozenset()
+    return frozenset(
+        h
+        for h in range(-_MOST_HOURS, _MOST_HOURS + 1)
+        if start_ns - _NEAR_NS <= begin_ns + h * _HOUR_NS and end_ns + h * _HOUR_NS <= last + _NEAR_NS
+    )
 
 
 def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> str | None:
@@ -118,7 +152,10 @@ def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> s
     else None."""
     if zone is None or not any(f.local for f in group.files):
         return None
-    return zone if all(_offset(zone, begin) == h for h, begin in _ahead(group, groups) or ()) else None
+    each = _each_ahead(group, groups) or ()
+    more = _as_well(each) if each else frozenset()
+    ahead = [(_offset(zone, e.begin_ns), e.hours) for e in each]
+    return zone if all(own is not None and (own == h or own - h in more) for own, h in ahead) else None
 
 
 def _shown(hours: set[int]) -> str:
@@ -150,6 +187,10 @@ def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> st
 
 def begin_of(files: Sequence[RawFile]) -> int | None:
     return min((f.start_ns for f in files if f.start_ns is not None), default=None)
+
+
+def end_of(files: Sequence[RawFile]) -> int | None:
+    return max((f.sample.last_ns for f in files if f.sample.last_ns is not None), default=None)
 
 
 def _offset(name: str, at_ns: int) -> int | None:

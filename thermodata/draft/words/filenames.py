@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
-from thermodata.reader.files.members import SUFFIX as ZIP
+from thermodata.archive.members import ARCHIVES
 from thermodata.reader.files.rotated import as_unpacked, unrotated
 
 _PIECE = re.compile(r"[_\-. ]+")
@@ -202,7 +202,9 @@ def _folder(paths: Sequence[PurePosixPath]) -> str | None:
 
 def _archives(names: Sequence[str]) -> str | None:
     """What the names of archives end with, '' where none is one; None where only some do."""
-    ends = {name[-len(ZIP) :] if name.lower().endswith(ZIP) else "" for name in names}
+    longest = sorted(ARCHIVES, key=len, reverse=True)  # '.tar.gz' is one end
+    found = {name: next((end for end in longest if name.lower().endswith(end)), "") for name in names}
+    ends = {name[len(name) - len(end) :] for name, end in found.items()}
     return ends.pop() if len(ends) == 1 else None
 
 

@@ -9,7 +9,6 @@ from pathlib import PurePosixPath
 
 from thermodata.draft.campaign.parts import Draft, DraftTest
 from thermodata.draft.words.said_by_names import speed_in
-from thermodata.reader.files.members import SUFFIX as ZIP
 
 _LEAST = 3
 _FIELDS: tuple[tuple[str, str, str], ...] = (  # name before the number, condition, its unit
@@ -46,7 +45,6 @@ def pattern_of(draft: Draft) -> Pattern | None:
             and s.files.count("{test}") == 1
             and PurePosixPath(s.files).stem == "{test}"
             and "*" not in s.files
-            and f"{ZIP}/" not in s.files.lower()  # tests_from looks at names on the disk
         ),
         None,
     )

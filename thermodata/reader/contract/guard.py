@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import replace
 from pathlib import Path
 
+from thermodata.archive.packed_by import packed_by
+from thermodata.archive.regular import opened, refuse_what_never_ends
+from thermodata.archive.unpacked import PACKED, held, is_cut
 from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
 from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Reader, Recording, Source
 from thermodata.reader.contract.heeded import Watched
 from thermodata.reader.contract.rules import RECORDING_RULES, broken_rule, sentence
-from thermodata.reader.files.archives import packed_by
-from thermodata.reader.files.regular import opened, refuse_what_never_ends
-from thermodata.reader.files.unpacked import PACKED, held
+
+_CUT = "the packed file is cut off: what stands before the cut is read"
 
 
 @contextmanager
@@ -30,10 +33,14 @@ def asking(said: str, where: str) -> Iterator[None]:
 def described(reader: Reader, path: Path, source: Source) -> Recording:
     """The reader's description, held against the rules. PluginError for a broken rule or an exception that is
     none of ours: a plugin's bug, with the file named; UsageError for a declared sheet that the reader ignores, and for
-    what is no file: a reader would wait for ever. A packed log is shown to its reader as it was before that."""
+    what is no file: a reader would wait for ever. A packed log is shown to its reader as it was before that; of
+    one that is cut off, it says so."""
     refuse_what_never_ends(path)
     with held_for(reader, path) as real:
-        return _described(reader, real, source)
+        recording = _described(reader, real, source)
+    if _is_cut_for(reader, path):
+        return replace(recording, complete=False, notes=(_CUT, *recording.notes))
+    return recording
 
 
 def _described(reader: Reader, path: Path, source: Source) -> Recording:
@@ -54,6 +61,10 @@ def _described(reader: Reader, path: Path, source: Source) -> Recording:
         if wrong is not None:
             raise PluginError(f"reader '{reader.name}' broke the rule: {sentence(rule)}", where=str(path), got=wrong)
     return recording
+
+
+def _is_cut_for(reader: Reader, path: Path) -> bool:
+    return not (path.is_file() and takes_packed(reader, path)) and is_cut(path)
 
 
 def held_for(reader: Reader, path: Path) -> AbstractContextManager[Path]:
@@ -95,6 +106,8 @@ def guarded(reader: Reader, path: Path, source: Source, recording: Recording | N
     said = described(reader, path, source) if recording is None else recording
     with held_for(reader, path) as real:
         yield from _guarded(reader, real, source, said)
+    if _is_cut_for(reader, path):
+        yield Loss(f"the end of {path.name}", None, None, None, _CUT)
 
 
 def _guarded(reader: Reader, path: Path, source: Source, said: Recording) -> Iterator[Block | Loss]:

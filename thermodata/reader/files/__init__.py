@@ -1,4 +1,4 @@
-"""Files before anybody reads them: whether they are regular, packed, pieces of one log, or a store's.
+"""Names and places of logs: pieces of one log, and folders that are stores.
 
 Imports no other room of the readers: names and first bytes only.
 """

@@ -6,7 +6,7 @@ import re
 from pathlib import PurePosixPath
 
 _ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.(?P<number>\d{1,3})|[.-](?P<day>\d{8}))$")
-_PACKED = re.compile(r"(?i)(?<=[^.])\.(?:gz|bz2)$")
+_PACKED = re.compile(r"(?i)(?<=[^.])\.(?:gz|bz2|xz)$")
 
 
 def unrotated(path: PurePosixPath) -> PurePosixPath:

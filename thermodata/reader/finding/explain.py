@@ -7,11 +7,11 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from thermodata.archive.members import size_of, standing
+from thermodata.archive.packed_by import how_to_unpack, packed, packed_by
 from thermodata.errors import FormatError, ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
-from thermodata.reader.files.members import size_of, standing
 from thermodata.reader.finding.foreign_files import foreign_file
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from thermodata.archive.members import size_of
+from thermodata.archive.regular import refuse_what_never_ends
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
 from thermodata.reader.contract.guard import asking, described, guarded, held_for
-from thermodata.reader.files.members import size_of
-from thermodata.reader.files.regular import refuse_what_never_ends
 from thermodata.reader.finding.registry import claims, sniff
 from thermodata.reader.finding.seen import Seen, when
 

@@ -8,12 +8,12 @@ from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 
+from thermodata.archive.members import each_in
+from thermodata.archive.regular import opened
+from thermodata.archive.unpacked import PACKED, held
 from thermodata.errors import FAILED, FormatError, UsageError, unknown_name
 from thermodata.plugin import HEAD_BYTES, Head, Reader
 from thermodata.reader.contract.guard import takes_packed
-from thermodata.reader.files.members import each_in
-from thermodata.reader.files.regular import opened
-from thermodata.reader.files.unpacked import PACKED, held
 
 GROUP = "thermodata.reader"
 INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"

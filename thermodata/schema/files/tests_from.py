@@ -7,6 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from thermodata.archive.members import is_there
+from thermodata.archive.patterns import in_archives
+from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError, SpecError, ThermodataError, nearest
 from thermodata.schema.files.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.strict.explain import validate
@@ -54,10 +57,12 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
     pattern = pattern_of(spec.files)
     table = _read_table(spec, folder, document, place) if spec.table else {}
     tests = []
-    for path in sorted(folder.glob(_FIELD.sub("*", spec.files))):
+    looked_for = _FIELD.sub("*", spec.files)
+    packed = [folder / name for name in in_archives(folder, looked_for)]
+    for path in sorted({*folder.glob(looked_for), *packed}):
         name = path.relative_to(folder).as_posix()
         match = pattern.fullmatch(name)
-        if match is None or not path.is_file() or folder not in path.resolve().parents:
+        if match is None or not is_there(path) or folder not in path.resolve().parents:
             continue
         fields = match.groupdict()
         conditions = _conditions(spec, fields, table, name, document, place)
@@ -190,21 +195,11 @@ def _with_unit(value: Any, unit: str | None) -> Any:
 
 
 def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place) -> dict[str, Mapping[str, Any]]:
-    import pandas as pd
-
     assert spec.table is not None
     inside(spec.table.file, document, (*place, "table", "file"))
-    path = folder / spec.table.file
     try:
-        if path.suffix.lower() in (".xlsx", ".xls", ".ods"):
-            sheet = spec.table.sheet
-            if path.suffix.lower() == ".xlsx":
-                check_size(path)
-            frame = pd.read_excel(
-                path, sheet_name=sheet - 1 if isinstance(sheet, int) else sheet or 0, dtype=object, engine="calamine"
-            )
-        else:
-            frame = pd.read_csv(path, sep=_delimiter(path), dtype=str, keep_default_na=False, encoding="utf-8-sig")
+        with held(folder / spec.table.file) as path:
+            frame = _frame(path, spec.table.sheet)
     except (OSError, ValueError, ImportError, FormatError) as error:
         raise SpecError(
             "cannot read the table of tests",
@@ -222,9 +217,20 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
                 got=wanted,
                 hint=f"did you mean '{close}'?" if close else None,
             )
-    frame.columns = pd.Index(columns)
+    frame.columns = columns
     rows: Sequence[Mapping[Any, Any]] = frame.to_dict("records")
     return {_norm(row[spec.table.key]): row for row in rows}
+
+
+def _frame(path: Path, sheet: int | str | None) -> Any:
+    import pandas as pd
+
+    if path.suffix.lower() not in (".xlsx", ".xls", ".ods"):
+        return pd.read_csv(path, sep=_delimiter(path), dtype=str, keep_default_na=False, encoding="utf-8-sig")
+    if path.suffix.lower() == ".xlsx":
+        check_size(path)
+    one = sheet - 1 if isinstance(sheet, int) else sheet or 0
+    return pd.read_excel(path, sheet_name=one, dtype=object, engine="calamine")
 
 
 def _delimiter(path: Path) -> str:

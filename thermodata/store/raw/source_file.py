@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from thermodata.archive.members import archive_of, same, standing
+from thermodata.archive.regular import opened
+from thermodata.archive.unpacked import held
 from thermodata.errors import StoreError
-from thermodata.reader.files.members import archive_of, same, standing
-from thermodata.reader.files.regular import opened
-from thermodata.reader.files.unpacked import held
 
 _CHUNK = 1 << 20
 

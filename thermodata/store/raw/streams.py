@@ -7,10 +7,10 @@ import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from thermodata.archive.members import size_of
 from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Loss, Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described, guarded
-from thermodata.reader.files.members import size_of
 from thermodata.reader.finding import registry
 from thermodata.reader.signals.units_met import units_met
 from thermodata.reader.times import newest_first

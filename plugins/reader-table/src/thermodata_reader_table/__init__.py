@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
+from thermodata.archive.packed_by import packed
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
-from thermodata.reader.files.archives import packed
 
 
 class Reader:

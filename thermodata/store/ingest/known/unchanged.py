@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from thermodata.archive.members import size_of, standing
 from thermodata.errors import ThermodataError
-from thermodata.reader.files.members import size_of, standing
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 

@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from thermodata.archive.members import size_of, standing
 from thermodata.errors import FormatError, ThermodataError, UsageError
 from thermodata.plugin import Reader, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.members import size_of, standing
 from thermodata.reader.finding import registry
 from thermodata.schema.files.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.ingest.known.unchanged import Seen, seen

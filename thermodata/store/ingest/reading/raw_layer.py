@@ -7,9 +7,9 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from thermodata.archive.members import is_there
 from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
-from thermodata.reader.files.members import is_there
 from thermodata.schema.files.campaign import JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import is_whole, with_room_for, write_error
 from thermodata.store.ingest.known.file_versions import pinned, read_otherwise, twins

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import standing
+from thermodata.archive.patterns import as_regex, in_archives
+from thermodata.archive.regular import kind_of
 from thermodata.errors import SpecError
-from thermodata.reader.files.members import standing
-from thermodata.reader.files.patterns import as_regex, in_archives
-from thermodata.reader.files.regular import kind_of
 from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.files.campaign import Campaign, Test
 from thermodata.schema.strict.lines import is_text

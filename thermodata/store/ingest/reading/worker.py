@@ -20,9 +20,9 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import Any, BinaryIO
 
+from thermodata.archive.unpacked import forget_unpacked
 from thermodata.errors import FormatError, PluginError, UsageError
 from thermodata.plugin import Reader, Source
-from thermodata.reader.files.unpacked import forget_unpacked
 from thermodata.store.base.files import drop_unfinished
 from thermodata.store.ingest.progress import TextProgress, counted
 from thermodata.store.raw.raw_stream import RawStream

@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
-from thermodata.reader.files.members import is_there
-from thermodata.reader.files.patterns import in_archives
+from thermodata.archive.members import is_there
+from thermodata.archive.patterns import in_archives
 from thermodata.schema.files.campaign import Campaign, JumpCalibration
 from thermodata.schema.files.tests_from import pattern_of
 from thermodata.schema.strict.lines import is_text

@@ -7,15 +7,15 @@ import os
 import re
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.members import is_archive_name, listed
 from thermodata.errors import FormatError
-from thermodata.reader.files.members import SUFFIX, listed
 
 
 def in_archives(root: Path, pattern: str) -> list[str]:
-    """The files in ZIP archives of a folder under a pattern that names these, as 'raw/*.zip/*.csv' does. An archive
+    """The files in archives of a folder under a pattern that names these, as 'raw/*.zip/*.csv' does. An archive
     that can't be read stands for what is in it: whoever reads it is told why."""
     parts = PurePosixPath(pattern).parts
-    at = next((k for k, part in enumerate(parts[:-1]) if part.lower().endswith(SUFFIX)), None)
+    at = next((k for k, part in enumerate(parts[:-1]) if is_archive_name(part)), None)
     if at is None:
         return []
     outside, inside = "/".join(parts[: at + 1]), re.compile(as_regex("/".join(parts[at + 1 :])))

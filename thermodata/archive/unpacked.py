@@ -1,52 +1,48 @@
 """Packed logs as readers see them: unpacked into a folder of this process, which goes with it.
 
-A file packed alone keeps its name, 'run.csv.gz'. In a ZIP archive each file is one of its own, 'day.zip/run.csv'. Both
-are known by their names too: formats of their own are packed, as NumPy's .npz. What stands on the disk is never
-touched, and is not trusted: what would take the disk is refused before it does.
+A file packed alone keeps its name, 'run.csv.gz'. In a ZIP or TAR archive each file is one of its own,
+'day.zip/run.csv'. Both are known by their names too: formats of their own are packed, as NumPy's .npz. What stands on
+the disk is never touched, and is not trusted: what would take the disk is refused before it does.
 """
 
 from __future__ import annotations
 
 import atexit
-import bz2
-import gzip
+import lzma
 import os
 import shutil
 import threading
 import zipfile
 import zlib
 from collections import OrderedDict
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, closing, contextmanager
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
-from io import BufferedReader
 from pathlib import Path
-from typing import IO, Any
 
+from thermodata.archive.members import ARCHIVES, archive_of, is_archive, is_archive_name, listed, same
+from thermodata.archive.packed_by import how_to_unpack, is_tar, packed, packed_by
+from thermodata.archive.packers import OPEN, SUFFIXES
+from thermodata.archive.process_folder import process_folder
+from thermodata.archive.regular import opened
+from thermodata.archive.too_much import MOST_BYTES, most_of, no_room
 from thermodata.errors import FormatError
-from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
-from thermodata.reader.files.members import SUFFIX, archive_of, is_archive, listed, same
-from thermodata.reader.files.process_folder import process_folder
-from thermodata.reader.files.regular import opened
-from thermodata.reader.files.too_much import MOST_BYTES, most_of, no_room
 
 _PART = 1 << 20
 _KEPT_BYTES, _KEPT = 4 << 30, 64  # what was unpacked last is likely to be asked for again
-_OPEN: dict[str, Callable[[BufferedReader], Any]] = {
-    "gzip": lambda file: gzip.GzipFile(fileobj=file),
-    "bzip2": bz2.BZ2File,
-}
-_SUFFIXES = (".gz", ".bz2")
-PACKED = (SUFFIX, *_SUFFIXES)
+PACKED = (*SUFFIXES, *(end for end in ARCHIVES if end.count(".") == 1))
+"""The last suffixes of files that are packed."""
 
 
 @dataclass(slots=True)
 class _Copy:
-    """A file as it was before it was packed. held: by how many it is being read."""
+    """A file as it was before it was packed. cut: it is packed alone, and ends too early. held: by how many it is being
+    read."""
 
     path: Path
     size: int
+    cut: bool
     held: int = 0
 
 
@@ -82,6 +78,15 @@ def held(path: Path) -> Iterator[Path]:
             copy.held -= 1
 
 
+def is_cut(path: Path) -> bool:
+    """Whether a log was packed alone and is cut off, so that what was unpacked is its beginning."""
+    where = _packed_in(path)
+    if where is None:
+        return False
+    with _lock:
+        return _copy(*where).cut
+
+
 def forget_unpacked() -> None:
     """Deletes all that was unpacked here: for a process that ends without a word."""
     global _folder
@@ -112,9 +117,9 @@ def _packed_in(path: Path) -> tuple[Path, str] | None:
         return inside
     if path.suffix.lower() not in PACKED or not path.is_file():
         return None
-    if path.suffix.lower() != SUFFIX:
+    if not is_archive_name(path.name):
         with opened(path) as file:
-            return (path, "") if packed_by(file.read(16)) in _OPEN else None
+            return (path, "") if packed_by(file.read(16)) in OPEN else None
     if not is_archive(path):
         return None
     names = listed(path).names
@@ -163,30 +168,38 @@ def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
     where = f"{archive.name}/{name}" if name else archive.name
     most = MOST_BYTES if name else most_of(status.st_size)  # an archive says how much it holds, and gives no more
     try:
-        size = _written(_stream(archive, name), target, where, most)
+        size, cut = _written(_parts(archive, name), target, where, most, whole=bool(name))
         with target.open("rb") as file:
             start = file.read(512)
-        inner = packed_by(start) or ("ZIP" if packed(start) is not None else None)
-        if inner is not None:
+        inner = packed_by(start) or ("ZIP" if packed(start) is not None else "TAR" if is_tar(start) else None)
+        if inner is not None and (name or inner != "TAR" or not is_archive_name(archive.name)):
             raise FormatError(
                 "packed more than once",
                 where=where,
                 expected="a log",
                 got=inner,
-                hint=f"unpack it beside the others: {how_to_unpack('ZIP' if name else 'gzip', archive.name)}",
+                hint=f"unpack it beside the others: {how_to_unpack(_packer(archive, name), archive.name)}",
             )
     except BaseException:
         shutil.rmtree(place, ignore_errors=True)
         raise
     os.utime(target, ns=(status.st_atime_ns, status.st_mtime_ns))
-    return _Copy(target, size)
+    return _Copy(target, size, cut)
 
 
-def _written(source: AbstractContextManager[IO[bytes]], target: Path, where: str, most: int) -> int:
+def _packer(archive: Path, name: str) -> str:
+    if name:
+        return "ZIP" if archive.suffix.lower() == ".zip" else "tar"
+    with opened(archive) as file:
+        return packed_by(file.read(16)) or "gzip"
+
+
+def _written(parts: Generator[bytes], target: Path, where: str, most: int, whole: bool) -> tuple[int, bool]:
+    """(bytes, whether they are the beginning of what was packed, for its end is cut off). whole: it may not be."""
     size = 0
     try:
-        with source as stream, target.open("wb") as out:
-            while part := stream.read(_PART):
+        with closing(parts), target.open("wb") as out:
+            for part in parts:
                 size += len(part)
                 if no_room(target):
                     _drop(lambda: not no_room(target))
@@ -199,31 +212,60 @@ def _written(source: AbstractContextManager[IO[bytes]], target: Path, where: str
                         hint="unpack it yourself, beside the others" + ("" if size > most else ", or set TMPDIR"),
                     )
                 out.write(part)
-    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, ValueError) as error:
+    except EOFError as error:
+        if whole or not size:
+            raise _damaged(where, error) from None
+        return size, True
+    except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, RuntimeError, NotImplementedError, ValueError) as error:
         raise _damaged(where, error) from None
     except OSError as error:
         if error.errno is not None:  # of the disk
             raise
         raise _damaged(where, error) from None  # what gzip and bzip2 say of their data
-    return size
+    return size, False
 
 
 def _damaged(where: str, error: Exception) -> FormatError:
     return FormatError("a packed file that is damaged", where=where, expected="all that was packed", got=str(error))
 
 
-@contextmanager
-def _stream(archive: Path, name: str) -> Iterator[IO[bytes]]:
+def _parts(archive: Path, name: str) -> Generator[bytes]:
     if not name:
         with opened(archive) as file:
             packer = packed_by(file.read(16)) or ""
             file.seek(0)
-            with closing(_OPEN[packer](file)) as stream:
-                yield stream
+            with closing(OPEN[packer](file)) as stream:
+                while part := stream.read1(_PART):
+                    yield part
         return
-    member = listed(archive).member(name)
+    found = listed(archive)
+    member = found.member(name)
+    if archive.suffix.lower() != ".zip":
+        yield from _of_tar(archive, found.at[name], found.sizes[name])
+        return
     with _zipped(str(archive), same(archive.stat())).open(member) as stream:
-        yield stream
+        while part := stream.read(_PART):
+            yield part
+
+
+def _of_tar(archive: Path, at: int, size: int) -> Iterator[bytes]:
+    """A file in an archive, which is unpacked as a whole once, and not anew for each."""
+    with opened(archive) as file:
+        copy = _copy(archive, "") if packed_by(file.read(16)) is not None else None
+    if copy is not None:
+        copy.held += 1
+    try:
+        with (archive if copy is None else copy.path).open("rb") as file:
+            file.seek(at)
+            while size:
+                part = file.read(min(size, _PART))
+                if not part:
+                    raise EOFError("the archive ends within the file")
+                size -= len(part)
+                yield part
+    finally:
+        if copy is not None:
+            copy.held -= 1
 
 
 @lru_cache(maxsize=4)

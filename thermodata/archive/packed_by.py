@@ -23,6 +23,7 @@ _PACKERS = (
 # what unpacks a file and leaves it there: where Python has it, by what runs on every system
 _UNPACK = {
     "ZIP": "python -m zipfile -e {} .",
+    "tar": "python -m tarfile -e {} .",
     "gzip": "python -m gzip -d {}",
     "bzip2": "bzip2 -dk {}",
     "xz": "xz -dk {}",
@@ -40,6 +41,11 @@ def how_to_unpack(packer: str, name: str) -> str:
 def packed_by(start: bytes) -> str | None:
     """The packer of a file that is no ZIP archive ('gzip'), by its first bytes; None where it is not packed."""
     return next((name for magic, name in _PACKERS if start.startswith(magic)), None)
+
+
+def is_tar(start: bytes) -> bool:
+    """Whether a file is a TAR archive, by its first 512 bytes."""
+    return start[257:262] == b"ustar"
 
 
 def packed(start: bytes) -> str | None:

@@ -1,0 +1,1 @@
+"""Files as they stand on the disk: regular ones, packed ones, and those in archives."""

@@ -1,0 +1,238 @@
+"""The files in a ZIP or TAR archive, each under a path of its own: 'day.zip/run.csv' is no file, and reads as one."""
+
+from __future__ import annotations
+
+import lzma
+import os
+import tarfile
+import zipfile
+import zlib
+from contextlib import closing
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path, PurePosixPath
+from typing import IO, cast
+
+from thermodata.archive.packed_by import is_tar, packed_by
+from thermodata.archive.packers import OPEN, Unpacking
+from thermodata.archive.regular import opened
+from thermodata.archive.too_much import most_of
+from thermodata.errors import FormatError
+
+_ZIP = ".zip"
+ARCHIVES = (_ZIP, ".tar", ".tgz", ".tbz2", ".txz", ".tar.gz", ".tar.bz2", ".tar.xz")
+"""What the names of archives end with, in lower case."""
+_MAGIC = (b"PK\x03\x04", b"PK\x05\x06")  # the latter of one that holds nothing
+_MOST = 20_000  # files in an archive
+_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2)  # others unpack in what memory they ask for
+_SHOWN = 3
+_WRONG = (
+    zipfile.BadZipFile,
+    tarfile.TarError,
+    zlib.error,
+    lzma.LZMAError,
+    ValueError,
+    EOFError,
+    NotImplementedError,
+)  # of an archive
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """What an archive holds. sizes: name -> bytes, unpacked; refused: name -> why it is not read; stored: name -> as
+    the archive has it; at: name -> where it begins in a TAR archive, unpacked."""
+
+    archive: str
+    sizes: dict[str, int] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    stored: dict[str, str] = field(default_factory=dict)
+    at: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self.sizes)
+
+    def why(self) -> str:
+        """Why what is refused is."""
+        told = [f"{name!r}: {why}" for name, why in self.refused.items()]
+        more = f" and {len(told) - _SHOWN} more" if len(told) > _SHOWN else ""
+        return ", ".join(told[:_SHOWN]) + more or "nothing"
+
+    def member(self, name: str) -> str:
+        """The name of a file as the archive has it. FormatError where it may not be read, FileNotFoundError where there
+        is none."""
+        if name in self.refused:
+            raise FormatError(
+                "a file in an archive that is not read",
+                where=f"{self.archive}/{name}",
+                expected="a log",
+                got=self.refused[name],
+                hint="unpack it yourself, beside the others",
+            )
+        if name not in self.stored:
+            raise FileNotFoundError(2, "no such file in the archive", f"{self.archive}/{name}")
+        return self.stored[name]
+
+
+def is_archive_name(name: str) -> bool:
+    """Whether a file is called as archives are."""
+    return name.lower().endswith(ARCHIVES)
+
+
+def is_archive(path: Path) -> bool:
+    """Whether a file is an archive, by its name and its first bytes."""
+    if not is_archive_name(path.name) or not path.is_file():
+        return False
+    with opened(path) as file:
+        start = file.read(512)
+    if path.suffix.lower() == _ZIP:
+        return start[:4] in _MAGIC
+    return is_tar(start) or packed_by(start) in OPEN
+
+
+def each_in(path: Path) -> list[Path]:
+    """The files in an archive, those too that are not read; any other file alone, and an archive that can't be read."""
+    try:
+        if not is_archive(path):
+            return [path]
+        found = listed(path)
+    except (FormatError, OSError):
+        return [path]
+    return [path / name for name in (*found.names, *found.refused)] or [path]
+
+
+def archive_of(path: Path) -> tuple[Path, str] | None:
+    """(archive, the name of a file in it) of a path that leads into one; None for any other."""
+    whole = str(path).lower()
+    if not any(f"{end}{os.sep}" in whole for end in ARCHIVES):
+        return None
+    for above in path.parents:
+        if is_archive_name(above.name) and above.is_file():
+            return above, path.relative_to(above).as_posix()
+    return None
+
+
+def standing(path: Path) -> Path:
+    """The file on the disk that a path leads to, or into."""
+    inside = archive_of(path)
+    return path if inside is None else inside[0]
+
+
+def size_of(path: Path) -> int:
+    """How many bytes a file has, or one in an archive. OSError where it is not there, FormatError where the archive
+    can't be read."""
+    inside = archive_of(path)
+    if inside is None:
+        return os.stat(path).st_size
+    found = listed(inside[0])
+    found.member(inside[1])
+    return found.sizes[inside[1]]
+
+
+def is_there(path: Path) -> bool:
+    """Whether a path leads to a file, or to one in an archive."""
+    try:
+        return path.is_file() or (archive_of(path) is not None and size_of(path) >= 0)
+    except (OSError, FormatError):
+        return False
+
+
+def same(status: os.stat_result) -> tuple[int, ...]:
+    """What changes with a file's content."""
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+
+
+def listed(archive: Path) -> Listed:
+    """The files in an archive, in its order; without hidden ones. FormatError where it is damaged, or holds too much to
+    be one of logs."""
+    return _listed(str(archive), same(archive.stat()))
+
+
+@dataclass(frozen=True, slots=True)
+class _Member:
+    """A file as an archive has it. why: it is not read; at: in a TAR archive, unpacked."""
+
+    name: str
+    size: int
+    why: str | None
+    at: int = 0
+
+
+@lru_cache(maxsize=64)
+def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
+    name, most = Path(archive).name, most_of(mark[2])
+    kind = "ZIP" if name.lower().endswith(_ZIP) else "TAR"
+    try:
+        members = _zipped(archive) if kind == "ZIP" else _tarred(archive, most)
+    except OSError as error:
+        if error.errno is not None:  # of the disk
+            raise
+        raise _unreadable(name, kind, error) from None
+    except _WRONG as error:
+        raise _unreadable(name, kind, error) from None
+    whole = sum(m.size for m in members)
+    if len(members) > _MOST or whole > most:
+        raise FormatError(
+            "an archive that unpacks to more than logs do",
+            where=name,
+            expected=f"at most {_MOST} files and {most} bytes",
+            got=f"{len(members)} files and {whole} bytes",
+            hint="unpack it yourself, beside the others",
+        )
+    found = Listed(name)
+    for m in members:
+        path = m.name.replace("\\", "/").removeprefix("./")
+        parts = path.split("/")
+        if any(p.startswith((".", "~$")) and p != ".." for p in parts) or "__MACOSX" in parts:
+            continue
+        if (why := _misnamed(path, found) or m.why) is not None:
+            found.refused[path.lstrip("/").replace(":", "_")] = why
+        else:
+            found.sizes[path], found.stored[path], found.at[path] = m.size, m.name, m.at
+    return found
+
+
+def _unreadable(name: str, kind: str, error: Exception) -> FormatError:
+    return FormatError(
+        "an archive that can't be read", where=name, expected=f"a {kind} archive that is whole", got=str(error)
+    )
+
+
+def _zipped(archive: str) -> list[_Member]:
+    with zipfile.ZipFile(archive) as zipped:
+        return [_Member(m.filename, m.file_size, _locked(m)) for m in zipped.infolist() if not m.is_dir()]
+
+
+def _locked(member: zipfile.ZipInfo) -> str | None:
+    if member.flag_bits & 1:
+        return "it is encrypted"
+    return None if member.compress_type in _METHODS else "it is packed in an unusual way"
+
+
+def _tarred(archive: str, most: int) -> list[_Member]:
+    """No further than to where there are too many files, or bytes."""
+    with opened(Path(archive)) as file:
+        packer = packed_by(file.read(16))
+        file.seek(0)
+        with closing(cast(Unpacking, file) if packer is None else OPEN[packer](file)) as stream:
+            found, size = list[_Member](), 0
+            with tarfile.open(fileobj=cast(IO[bytes], stream), mode="r|") as tarred:
+                for m in tarred:
+                    if m.isdir():
+                        continue
+                    why = None if m.isreg() and not m.issparse() else "it is a link, or no plain file"
+                    found.append(_Member(m.name, m.size, why, m.offset_data))
+                    size += m.size
+                    if len(found) > _MOST or size > most:
+                        break
+            return found
+
+
+def _misnamed(path: str, found: Listed) -> str | None:
+    """Why a file in an archive is not read for its name; None where it is."""
+    pure = PurePosixPath(path)
+    if pure.is_absolute() or ".." in pure.parts or ":" in path or not path.isprintable() or str(pure) != path:
+        return "its name leads elsewhere"
+    if len(os.fsencode(pure.name)) > 200:
+        return "its name is too long"
+    return "there are two of this name" if path in found.stored else None

@@ -1,0 +1,29 @@
+"""What an export of our own says of its channels, which leaves nothing to guess of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from thermodata.draft.signals.quantity import Guess
+from thermodata.plugin import Signal
+from thermodata.schema.agreed.exported import own_says
+
+
+def as_exported(said: Guess, signal: Signal) -> Guess:
+    """A guess as the file says it, where it says the quantity; its place and axis are those that were declared."""
+    quantity, at, axis = (own_says(signal.name, key, signal.properties) for key in ("quantity", "at", "axis"))
+    if quantity is None:
+        return said
+    unit = said.unit if said.quantity == quantity and said.instead_of is None else signal.unit
+    return replace(
+        said,
+        quantity=quantity,
+        unit=unit,
+        at=at,
+        axis=axis,
+        sure=True,
+        basis=("what the export says",),
+        questions=(),
+        why_not=None,
+        instead_of=None,
+    )
