@@ -383,6 +383,18 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
     )
 
 
+def test_a_shape_that_falls_far_more_than_the_error_as_scored_is_told() -> None:
+    """24 % beside a probability of 99 %: what remains is where the tests start."""
+    locked = {"locked_rmse_um_before": 2.34, "locked_rmse_um_after": 1.78}
+    far = claim("screw", **locked, locked_shape_um_before=2.29, locked_shape_um_after=0.847)
+    assert verdict_sentence(found("effect", [far])).endswith(
+        "; locked tests (judged by their shape where it acts, 2.29 -> 0.847 um; from their first samples on: "
+        "2.34 -> 1.78 um)"
+    )
+    near = claim("screw", **locked, locked_shape_um_before=2.29, locked_shape_um_after=1.6)
+    assert verdict_sentence(found("effect", [near])).endswith("; locked tests 2.34 -> 1.78 um")
+
+
 def test_locked_tests_in_which_a_claim_rests_are_not_said_to_have_judged_it() -> None:
     rests = {"locked_rmse_um_before": 0.5, "locked_rmse_um_after": 0.6, "locked_tests_asked": 0}
     text = verdict_sentence(found("effect", [claim("screw", **rests)]))

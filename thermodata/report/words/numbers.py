@@ -37,6 +37,11 @@ def number(value: Any, digits: int = 3) -> str:
     return f"{value:.{max(0, digits - 1 - size)}f}"
 
 
+def quantity(value: float, unit: str) -> str:
+    """'8.59 um', and '1.43' of what has no unit: '1.43 1' would be two numbers."""
+    return number(value) if unit in ("", "1") else f"{number(value)} {unit}"
+
+
 def in_unit(text: str, unit: str | None) -> str:
     """A text that says um, in the unit of the response that it is of (None: um): a model may be one of temperatures."""
     return text if unit in (None, "um") else re.sub(r"(?<=\d )um\b", str(unit), text)
