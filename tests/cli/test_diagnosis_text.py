@@ -153,3 +153,11 @@ def test_what_refines_the_model_has_its_command_too() -> None:
     modes = [candidate(k, name, refinement=True) for k, name in enumerate(("mode", "switch"), start=1)]
     assert "\nto have mode:T and switch:T: thermodata add m 1 2\n" in text("refine", *modes, candidate(3, "rest"))
     assert "to have mode" not in text("refine", candidate(1, "mode", refinement=True, as_modelled=True))
+
+
+def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
+    said = text("not_testable")
+    assert "left-out" not in said
+    assert "as it is fitted the model leaves 4.00 um" in said
+    assert said.splitlines()[0].endswith("one is claimed only where it also foretells a test that it was not fitted to")
+    assert said.splitlines()[-1].startswith("fitted: calibration tests, which the model was fitted to")

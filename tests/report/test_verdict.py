@@ -340,12 +340,15 @@ def test_nothing_is_missing_only_as_the_logs_are_dated_where_a_clock_was_not_mov
     hint = Artefact(kind="clock_offset", campaign="c", test="feed20", at_s=None, size_um=None, why="odd ends")
     text = verdict_sentence(found("none", [], artefacts=[hint]))
     assert text.startswith(
-        "the open tests show no missing effect as the logs are dated, but a clock may be off in feed20, by which "
-        "nothing was moved: "
+        "a clock may be off in feed20, by which nothing was moved: first try what the artefact says, for until then "
+        "something may be missing; the open tests show no missing effect as the logs are dated: "
     )
     moved = PutRight(clocks=[ClockMoved(source="nc", campaign="c", test="feed20", moved_s=-2405.0)])
     assert "may be off" not in verdict_sentence(found("none", [], artefacts=[hint], put_right=moved))
-    assert "may be off in feed20" in verdict_sentence(found("refine", [one("m", refinement=True)], artefacts=[hint]))
+    for mode in (one("m", refinement=True), one("m", refinement=True, as_modelled=True)):
+        refined = verdict_sentence(found("refine", [mode], artefacts=[hint]))
+        assert refined.startswith("a clock may be off in feed20, ")
+        assert "as the logs are dated" in refined
 
 
 @pytest.mark.parametrize(

@@ -174,7 +174,8 @@ def _on_locked(found: Diagnosis) -> str:
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    left = "" if found.rmse_um is None else f"error on left-out tests {number(found.rmse_um)} um"
+    of = "as it is fitted the model leaves" if found.verdict == "not_testable" else "error on left-out tests"
+    left = "" if found.rmse_um is None else f"{of} {number(found.rmse_um)} um"
     figures = [left, _on_locked(found), noise_words(found), explainable(found)]
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
@@ -222,11 +223,18 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(hides)
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
+    parts.append(_words(found))
+    return "\n\n".join(parts)
+
+
+def _words(found: Diagnosis) -> str:
+    """What the words for its errors mean."""
+    if found.verdict == "not_testable":
+        return explained("fitted")
     words = explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else []))
     left_out, *others = words.splitlines()
     told_of_parts = in_parts(found)
-    parts.append("\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others]))
-    return "\n\n".join(parts)
+    return "\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others])
 
 
 def _in_table(found: Diagnosis, top: int) -> list[Candidate]:
