@@ -161,3 +161,15 @@ def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
     assert "as it is fitted the model leaves 4.00 um" in said
     assert said.splitlines()[0].endswith("one is claimed only where it also foretells a test that it was not fitted to")
     assert said.splitlines()[-1].startswith("fitted: calibration tests, which the model was fitted to")
+
+
+def test_that_no_locked_test_was_opened_is_said_where_none_was() -> None:
+    said = "no locked test was opened for this answer"
+    assert said in text("none", candidate(1, "screw"))
+    assert said in text("unknown")
+    assert said not in text("unknown", candidate(1, "screw", locked_tests_asked=1))
+    assert said not in text("effect", candidate(1, "screw", claimed=True))
+    looked = {"locked_tests_asked": 2, "locked_shape_um_before": 1.6, "locked_shape_um_after": 1.2}
+    mode = text("unknown", candidate(1, "sun"), candidate(2, "mode", refinement=True, **looked))
+    assert "on locked tests, opened for it, about each one's mean: mode:T 1.60 -> 1.20 um" in mode
+    assert said not in mode

@@ -165,11 +165,24 @@ def _add(model: str, some: Sequence[Candidate]) -> str:
 def _on_locked(found: Diagnosis) -> str:
     """With a free level first, as left-out tests have it."""
     if found.locked_rmse_um is None:
-        return ""
+        return _opened_for(found)
     scored = f"{number(found.locked_rmse_um)} um"
     if found.locked_shape_um is None:
         return f"on locked tests {scored}"
     return f"on locked tests {number(found.locked_shape_um)} um about each one's mean, {scored} from first samples on"
+
+
+def _opened_for(found: Diagnosis) -> str:
+    """That no locked test was opened, for silence would count as evidence; or for which mode of the model's effects,
+    for each look is counted. '' where a claim or its reason says so."""
+    asked = [c for c in found.candidates if c.claimed or c.locked_tests_asked]
+    if not asked:
+        return "" if found.verdict == "not_testable" else "no locked test was opened for this answer"
+    modes = [c for c in asked if c.refinement and c.locked_shape_um_before is not None]
+    if len(modes) < len(asked):
+        return ""
+    each = [f"{c.id} {number(c.locked_shape_um_before)} -> {number(c.locked_shape_um_after)} um" for c in modes]
+    return f"on locked tests, opened for it, about each one's mean: {', '.join(each)}"
 
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:

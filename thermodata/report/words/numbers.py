@@ -143,8 +143,8 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
         ("direction", direction + ("" if heat.agreed is None else f" ({100 * heat.agreed:.0f} % of the draws agree)")),
         (
             "explains",
-            f"{percent(heat.explained)} of the squared residual that it is drawn through, as a free course does; "
-            f"{percent(heat.left_out)} in parts left out",
+            f"{percent(heat.left_out)} of the squared residual in parts of the tests that were left out in turn "
+            f"({percent(heat.explained)} of what it is drawn through, as any free course does)",
         ),
         ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
         ("goes with", _companions(heat.goes_with)),
