@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.text.fit import spots_text
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.schema.answers.diagnosis import Diagnosis, Unknown
+from thermodata.schema.answers.diagnosis import Diagnosis, Unknown, WeakSpot
 from thermodata.schema.answers.result import Parameter
 
 
@@ -63,9 +64,36 @@ def test_each_claim_and_refinement_has_its_row_and_its_reason() -> None:
     assert told == [f"why {e}:T: because of {e}" for e in ("screw", "sun", "mode")]
 
 
-def test_a_claim_beyond_the_table_still_has_its_reason() -> None:
-    said = text("effect", candidate(1, "screw", claimed=True), candidate(2, "sun", claimed=True), top=1)
+def test_a_claim_beyond_the_table_still_has_its_row_and_its_reason() -> None:
+    claims = candidate(1, "screw", claimed=True), candidate(3, "sun", claimed=True)
+    said = text("effect", claims[0], candidate(2, "rest"), claims[1], top=1)
     assert "why sun:T: because of sun" in said
+    rows = [line.split()[:2] for line in said.splitlines() if line.split()[1:2] and line.split()[1].endswith(":T")]
+    assert rows == [["1", "screw:T"], ["3", "sun:T"]]
+
+
+def test_names_of_twins_are_whole_and_those_that_have_no_room_are_counted() -> None:
+    twins = [f"feed_motor:T_motor_of_axis_{axis}" for axis in "XYZAB"]
+    said = text("effect", candidate(1, "screw", claimed=True, equivalent=twins))
+    assert "…" not in said
+    joined = "".join(said.split())
+    assert "T_motor_of_axis_X" in joined
+    assert "T_motor_of_axis_Z,and2more" in joined
+
+
+def test_what_the_machine_did_where_a_model_fails_is_not_cut() -> None:
+    state = ", ".join(f"feed_{axis} 0 to 14 m/min, T_motor_{axis} rising" for axis in "XYZABC")
+    spot = WeakSpot(campaign="c", test="a", from_s=0.0, to_s=3600.0, rmse_um=2.0, state=state)
+    said = spots_text([spot])
+    assert "…" not in said
+    assert all(f"T_motor_{axis}" in said for axis in "XYZABC")
+    assert said.startswith("where the model fails, the most squared error first\n")
+
+
+def test_a_parameter_without_a_unit_is_one_number() -> None:
+    exponent = Parameter(value=1.43, unit="1", low=None, high=None)
+    said = text("effect", candidate(1, "screw", claimed=True, parameters={"exponent": exponent}))
+    assert "screw:T: exponent 1.43\n" in said
 
 
 def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promised() -> None:
@@ -119,3 +147,29 @@ def test_a_claim_has_its_parameters_and_the_command_that_takes_it_in() -> None:
     several = [candidate(k, name, claimed=True) for k, name in enumerate(("screw", "motor", "oil"), start=1)]
     assert "to have both: thermodata add m 1 2" in text("effect", *several[:2])
     assert "to have all: thermodata add m 1 2 3" in text("effect", *several)
+
+
+def test_what_refines_the_model_has_its_command_too() -> None:
+    modes = [candidate(k, name, refinement=True) for k, name in enumerate(("mode", "switch"), start=1)]
+    assert "\nto have mode:T and switch:T: thermodata add m 1 2\n" in text("refine", *modes, candidate(3, "rest"))
+    assert "to have mode" not in text("refine", candidate(1, "mode", refinement=True, as_modelled=True))
+
+
+def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
+    said = text("not_testable")
+    assert "left-out" not in said
+    assert "as it is fitted the model leaves 4.00 um" in said
+    assert said.splitlines()[0].endswith("one is claimed only where it also foretells a test that it was not fitted to")
+    assert said.splitlines()[-1].startswith("fitted: calibration tests, which the model was fitted to")
+
+
+def test_that_no_locked_test_was_opened_is_said_where_none_was() -> None:
+    said = "no locked test was opened for this answer"
+    assert said in text("none", candidate(1, "screw"))
+    assert said in text("unknown")
+    assert said not in text("unknown", candidate(1, "screw", locked_tests_asked=1))
+    assert said not in text("effect", candidate(1, "screw", claimed=True))
+    looked = {"locked_tests_asked": 2, "locked_shape_um_before": 1.6, "locked_shape_um_after": 1.2}
+    mode = text("unknown", candidate(1, "sun"), candidate(2, "mode", refinement=True, **looked))
+    assert "on locked tests, opened for it, about each one's mean: mode:T 1.60 -> 1.20 um" in mode
+    assert said not in mode

@@ -340,12 +340,15 @@ def test_nothing_is_missing_only_as_the_logs_are_dated_where_a_clock_was_not_mov
     hint = Artefact(kind="clock_offset", campaign="c", test="feed20", at_s=None, size_um=None, why="odd ends")
     text = verdict_sentence(found("none", [], artefacts=[hint]))
     assert text.startswith(
-        "the open tests show no missing effect as the logs are dated, but a clock may be off in feed20, by which "
-        "nothing was moved: "
+        "a clock may be off in feed20, by which nothing was moved: first try what the artefact says, for until then "
+        "something may be missing; the open tests show no missing effect as the logs are dated: "
     )
     moved = PutRight(clocks=[ClockMoved(source="nc", campaign="c", test="feed20", moved_s=-2405.0)])
     assert "may be off" not in verdict_sentence(found("none", [], artefacts=[hint], put_right=moved))
-    assert "may be off in feed20" in verdict_sentence(found("refine", [one("m", refinement=True)], artefacts=[hint]))
+    for mode in (one("m", refinement=True), one("m", refinement=True, as_modelled=True)):
+        refined = verdict_sentence(found("refine", [mode], artefacts=[hint]))
+        assert refined.startswith("a clock may be off in feed20, ")
+        assert "as the logs are dated" in refined
 
 
 @pytest.mark.parametrize(
@@ -381,6 +384,18 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
     assert ("locked tests get worse (0.500 -> 0.600 um, by their shape 0.400 -> 0.500 um)" in text) is (
         said == "get worse"
     )
+
+
+def test_a_shape_that_falls_far_more_than_the_error_as_scored_is_told() -> None:
+    """24 % beside a probability of 99 %: what remains is where the tests start."""
+    locked = {"locked_rmse_um_before": 2.34, "locked_rmse_um_after": 1.78}
+    far = claim("screw", **locked, locked_shape_um_before=2.29, locked_shape_um_after=0.847)
+    assert verdict_sentence(found("effect", [far])).endswith(
+        "; locked tests (judged by their shape where it acts, 2.29 -> 0.847 um; from their first samples on: "
+        "2.34 -> 1.78 um)"
+    )
+    near = claim("screw", **locked, locked_shape_um_before=2.29, locked_shape_um_after=1.6)
+    assert verdict_sentence(found("effect", [near])).endswith("; locked tests 2.34 -> 1.78 um")
 
 
 def test_locked_tests_in_which_a_claim_rests_are_not_said_to_have_judged_it() -> None:

@@ -10,10 +10,12 @@ from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.left_over import noise_words
 from thermodata.report.verdict.log_faults import log_faults
+from thermodata.report.verdict.refined import to_add
 from thermodata.report.verdict.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
 from thermodata.report.words.glossary import PARTS, explained
-from thermodata.report.words.numbers import duration, heat_lines, number
+from thermodata.report.words.numbers import duration, heat_lines, number, quantity
 from thermodata.report.words.of_response import of_response
+from thermodata.schema.words.sentences import listed, with_count
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,6 +60,8 @@ def _rises_in(result: Confirmed) -> str:
     return f"yet from its first samples on the error rises in {' and in '.join(rising)}" if rising else ""
 
 
+_MOST_TWINS = 3
+_WIDEST = 200  # characters of a cell: none of these rows is cut
 _RISES = 1.02  # less is no rise, as of all tests together (thermodata/diagnosis/locked/held.py)
 BOTH_WITH = (
     "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
@@ -138,37 +142,57 @@ def _asked(found: Diagnosis) -> str:
 
 
 def _claims(found: Diagnosis) -> list[str]:
-    """What each claimed effect is like, and the command that takes it in, and that which takes all in."""
+    """What each claimed effect is like, and the command that takes it in, and that which takes all in; where what the
+    model has is refined, the command that does."""
     claims = [c for c in found.candidates if c.claimed]
+    if found.verdict == "refine" and not any(c.as_modelled for c in found.candidates):
+        return [f"to have {listed([c.id for c in some])}: {_add(found.model, some)}" for some in to_add(found)]
     each = [_claim(found.model, c) for c in claims]
     if len(claims) < 2:
         return each
-    ranks = " ".join(str(c.rank) for c in claims)
-    return [*each, f"to have {'both' if len(claims) == 2 else 'all'}: thermodata add {found.model} {ranks}"]
+    return [*each, f"to have {'both' if len(claims) == 2 else 'all'}: {_add(found.model, claims)}"]
 
 
 def _claim(model: str, c: Candidate) -> str:
-    values = ", ".join(f"{name} {number(p.value)} {p.unit}".rstrip() for name, p in c.parameters.items())
-    return (f"{c.id}: {values}\n" if values else "") + f"to have it: thermodata add {model} {c.rank}"
+    values = ", ".join(" ".join([name, quantity(p.value, p.unit)]) for name, p in c.parameters.items())
+    return (f"{c.id}: {values}\n" if values else "") + f"to have it: {_add(model, [c])}"
+
+
+def _add(model: str, some: Sequence[Candidate]) -> str:
+    return f"thermodata add {model} {' '.join(str(c.rank) for c in some)}"
 
 
 def _on_locked(found: Diagnosis) -> str:
     """With a free level first, as left-out tests have it."""
     if found.locked_rmse_um is None:
-        return ""
+        return _opened_for(found)
     scored = f"{number(found.locked_rmse_um)} um"
     if found.locked_shape_um is None:
         return f"on locked tests {scored}"
     return f"on locked tests {number(found.locked_shape_um)} um about each one's mean, {scored} from first samples on"
 
 
+def _opened_for(found: Diagnosis) -> str:
+    """That no locked test was opened, for silence would count as evidence; or for which mode of the model's effects,
+    for each look is counted. '' where a claim or its reason says so."""
+    asked = [c for c in found.candidates if c.claimed or c.locked_tests_asked]
+    if not asked:
+        return "" if found.verdict == "not_testable" else "no locked test was opened for this answer"
+    modes = [c for c in asked if c.refinement and c.locked_shape_um_before is not None]
+    if len(modes) < len(asked):
+        return ""
+    each = [f"{c.id} {number(c.locked_shape_um_before)} -> {number(c.locked_shape_um_after)} um" for c in modes]
+    return f"on locked tests, opened for it, about each one's mean: {', '.join(each)}"
+
+
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    left = "" if found.rmse_um is None else f"error on left-out tests {number(found.rmse_um)} um"
+    of = "as it is fitted the model leaves" if found.verdict == "not_testable" else "error on left-out tests"
+    left = "" if found.rmse_um is None else f"{of} {number(found.rmse_um)} um"
     figures = [left, _on_locked(found), noise_words(found), explainable(found)]
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
-        parts.append(_candidates_text(found.candidates[:top], found.rmse_um))
+        parts.append(_candidates_text(_in_table(found, top), found.rmse_um))
         parts += _claims(found)
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
@@ -212,11 +236,29 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(hides)
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
+    parts.append(_words(found))
+    return "\n\n".join(parts)
+
+
+def _words(found: Diagnosis) -> str:
+    """What the words for its errors mean."""
+    if found.verdict == "not_testable":
+        return explained("fitted")
     words = explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else []))
     left_out, *others = words.splitlines()
     told_of_parts = in_parts(found)
-    parts.append("\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others]))
-    return "\n\n".join(parts)
+    return "\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others])
+
+
+def _in_table(found: Diagnosis, top: int) -> list[Candidate]:
+    """The first `top`, and below them what is told of all the same: nobody has to look for the row of a sentence."""
+    named = {c.rank for c in told(found)}
+    return [c for c in found.candidates if c.rank <= top or c.rank in named]
+
+
+def _twins(ids: Sequence[str]) -> str:
+    """'feed_motor:T_motor_Z, lag:T_motor_Z, lag:feed_Z, and 3 more': names are whole, or nobody could ask for them."""
+    return with_count(ids, _MOST_TWINS, ", and")
 
 
 def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str:
@@ -226,6 +268,7 @@ def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str
             "claimed": "yes" if c.claimed else "refines" if c.refinement else "",
             "probability": probability(c.probability),
             "beside": beside(c, left),
+            "equivalent": _twins(c.equivalent),
         }
         for c in candidates
     ]
@@ -243,4 +286,4 @@ def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str
     ]
     told = f"\n\n{BOTH_WITH}" if any(r["beside"] for r in rows) else ""
     told += "".join(f"\n\n{c.id}: {AS_MODELLED}" for c in candidates if c.as_modelled)
-    return table(rows, columns, widest=44) + told
+    return table(rows, columns, widest=_WIDEST) + told

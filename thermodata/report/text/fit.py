@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from thermodata.schema.answers.result import Check, FitResult, Score
     from thermodata.view.curves.contributions import Contributions, Peak
 
+_WHOLE = 400  # characters of a state: what the machine did is not cut within a number
 _RISES = 1.005  # an error that rises by less is the same
 
 
@@ -190,10 +191,10 @@ def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
     """Weak spots as a table: where, when, how much, and what the machine did."""
     rows = [{**w.model_dump(), "span": f"{duration(w.from_s)} – {duration(w.to_s)}"} for w in spots[:most]]
     title = f"where the model of {response} fails" if response else "where the model fails"
-    return f"{title}\n" + table(
+    return f"{title}, the most squared error first\n" + table(
         rows,
         [("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"), ("state", "state")],
-        widest=80,
+        widest=_WHOLE,
     )
 
 

@@ -19,6 +19,8 @@ LEAST_TESTS = 3
 """of so many at least,"""
 SAME = 0.02
 """where the tests make the error that is told."""
+OTHERWISE = 1.5
+"""Of locked tests: a share that is left as scored, so many times that of the shape, is told with the latter."""
 
 
 def left_out_errors(some: Sequence[Candidate], left: float | None, together: float | None = None) -> str:
@@ -76,14 +78,20 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
         return f"; {said} ({number(before)} -> {number(after)} um)"
     figures = f"{number(before)} -> {number(after)} um"
     shape = claims[0].locked_shape_um_before, claims[0].locked_shape_um_after
-    if after < before:
+    if after < before and not _shape_says_more(after / before, *shape):
         return f"; locked tests{all_of} {figures}"
-    if shape[0] is not None and shape[1] is not None and shape[1] >= shape[0]:
+    if after >= before and shape[0] is not None and shape[1] is not None and shape[1] >= shape[0]:
         return (
             f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
         )
     by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
     return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
+
+
+def _shape_says_more(left: float, before: float | None, after: float | None) -> bool:
+    """Whether a fall as scored, to the share `left`, looks small for a claim that takes most of the shape away: what
+    remains is where tests start."""
+    return bool(before) and after is not None and OTHERWISE * after / (before or 1.0) <= left
 
 
 def _of_one(what: str, one: Candidate) -> str:

@@ -9,6 +9,8 @@ from thermodata.report.words.numbers import number
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from thermodata.schema.answers.candidate import Candidate
     from thermodata.schema.answers.diagnosis import Diagnosis
 
@@ -25,6 +27,18 @@ def can_be_refined(found: Diagnosis) -> str:
     return f"what the model has can be refined by {listed([named(c) for c in worth])}" if worth else ""
 
 
+def to_add(found: Diagnosis) -> list[list[Candidate]]:
+    """What to add at once to refine the model: all that is worth it, or one alone where left-out tests are foretold
+    worse with all."""
+    worth = [c for c in found.candidates if c.refinement and worth_adding(c)]
+    return [[c] for c in worth] if _worse_together(found, worth) else [worth] if worth else []
+
+
+def _worse_together(found: Diagnosis, worth: Sequence[Candidate]) -> bool:
+    before, together = found.rmse_um, found.named_rmse_um
+    return len(worth) > 1 and before is not None and together is not None and together > before
+
+
 def told_with_errors(found: Diagnosis, advice: str = "") -> str:
     """The same with errors on left-out tests, and what is not worth adding with the errors that say so. advice: what
     to do with the former, '{them}' standing for it."""
@@ -34,7 +48,7 @@ def told_with_errors(found: Diagnosis, advice: str = "") -> str:
     if worth:
         them = "it" if len(worth) == 1 else "them"
         before, together = found.rmse_um, found.named_rmse_um
-        if len(worth) > 1 and before is not None and together is not None and together > before:
+        if _worse_together(found, worth):
             ask = f"left-out tests are foretold worse with all of them ({number(before)} -> {number(together)} um)"
             parts.append(f"{can_be_refined(found)}, but {ask}: add one, and ask again")
         else:

@@ -27,6 +27,7 @@ _MOST_TWINS = 2
 _MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
+AS_DATED = " as the logs are dated"
 NO_MORE = "the open tests show no missing cause apart from what the model has in part"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
@@ -122,20 +123,21 @@ def _verdict(found: Diagnosis) -> str:
     far = _far_on_locked(found, found.locked_rmse_um if found.locked_shape_um is None else found.locked_shape_um)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
     open_still = "; ".join(filter(None, [there, _not_excluded(found)]))
+    doubt = clock_in_doubt(found)
+    as_dated = AS_DATED if doubt else ""
     if found.verdict == "refine" and refined and not any(c.as_modelled for c in refined):
-        return "; ".join(filter(None, [f"{NO_MORE}{clock_in_doubt(found)}", told_with_errors(found), open_still]))
+        return "; ".join(filter(None, [doubt, f"{NO_MORE}{as_dated}", told_with_errors(found), open_still]))
     if found.verdict == "none" or any(c.as_modelled for c in refined):
-        doubt = clock_in_doubt(found)
         named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
-        colon = "; " if doubt else ": "
         mend = offered(found)
         beside = "where its effects may act otherwise, " if mend else ""
-        none = f"{beside}the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
-        return "; ".join(filter(None, [mend, none, open_still]))
+        none = f"{beside}the open tests show no missing effect{named}{as_dated}: {left_over(found)}"
+        return "; ".join(filter(None, [doubt, mend, none, open_still]))
     return {
         "effect": "missing: an effect that the data point to",
         "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
-        "not_testable": "these tests can't tell which effect is missing",
+        "not_testable": "these tests can't tell which effect is missing: one is claimed only where it also foretells a "
+        "test that it was not fitted to",
     }[found.verdict]
 
 
@@ -148,8 +150,8 @@ def _one_is_seen(found: Diagnosis) -> bool:
 
 
 def clock_in_doubt(found: Diagnosis) -> str:
-    """' as its logs are dated, but a clock may be off in feed20 (...)': a hint that the answer did not act upon; ''
-    where there is none."""
+    """'a clock may be off in feed20, ...': a hint that the answer did not act upon, told before all that hangs on it;
+    '' where there is none."""
     moved = [] if found.put_right is None else found.put_right.clocks
     places = {(c.campaign, c.test) for c in moved}
     open_still = [a for a in found.artefacts if a.kind == "clock_offset"]
@@ -158,8 +160,8 @@ def clock_in_doubt(found: Diagnosis) -> str:
     if not tests:
         return ""
     return (
-        f" as the logs are dated, but a clock may be off in {listed(tests)}, by which nothing was moved: the artefact "
-        "says what to declare and try, and until then something may be missing"
+        f"a clock may be off in {listed(tests)}, by which nothing was moved: first try what the artefact says, for "
+        "until then something may be missing"
     )
 
 

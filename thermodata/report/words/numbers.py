@@ -37,6 +37,11 @@ def number(value: Any, digits: int = 3) -> str:
     return f"{value:.{max(0, digits - 1 - size)}f}"
 
 
+def quantity(value: float, unit: str) -> str:
+    """'8.59 um', and '1.43' of what has no unit: '1.43 1' would be two numbers."""
+    return number(value) if unit in ("", "1") else f"{number(value)} {unit}"
+
+
 def in_unit(text: str, unit: str | None) -> str:
     """A text that says um, in the unit of the response that it is of (None: um): a model may be one of temperatures."""
     return text if unit in (None, "um") else re.sub(r"(?<=\d )um\b", str(unit), text)
@@ -138,8 +143,8 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
         ("direction", direction + ("" if heat.agreed is None else f" ({100 * heat.agreed:.0f} % of the draws agree)")),
         (
             "explains",
-            f"{percent(heat.explained)} of the squared residual that it is drawn through, as a free course does; "
-            f"{percent(heat.left_out)} in parts left out",
+            f"{percent(heat.left_out)} of the squared residual in parts of the tests that were left out in turn "
+            f"({percent(heat.explained)} of what it is drawn through, as any free course does)",
         ),
         ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
         ("goes with", _companions(heat.goes_with)),
