@@ -3,17 +3,18 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 import thermodata.diagnosis.run
 import thermodata.virtual
 from thermodata.cli.start.demo import prepare, summary_text
 from thermodata.errors import UsageError
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.virtual import Truth
 
 from .conftest import Said
 
@@ -40,10 +41,17 @@ KEYS = {
 
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A machine with few and short tests: the story's mechanics, not its findings."""
-    monkeypatch.setattr(
-        thermodata.virtual, "simulate", partial(thermodata.virtual.simulate, tests=4, hours=4.0, rate_hz=0.1)
-    )
+    """A machine with few and short tests, and a model of two effects: the story's mechanics, not its findings."""
+    simulate = thermodata.virtual.simulate
+
+    def simulated(folder: Path, *, hide: str, seed: int) -> Truth:
+        truth = simulate(folder, hide=hide, seed=seed, tests=4, hours=4.0, rate_hz=0.1)
+        model = yaml.safe_load((folder / "model.yaml").read_text())
+        assert len(model["effects"]) > 2
+        (folder / "model.yaml").write_text(yaml.safe_dump({**model, "effects": model["effects"][:2]}))
+        return truth
+
+    monkeypatch.setattr(thermodata.virtual, "simulate", simulated)
 
 
 @pytest.mark.usefixtures("small")

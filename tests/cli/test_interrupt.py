@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import signal
@@ -68,9 +69,19 @@ def heeding() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def pressed(command: list[str], after: str = "", wait_s: float = 3.0) -> tuple[int, str]:
+def processes(group: int) -> int:
+    """How many live in a group of processes."""
+    found = 0
+    for entry in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(ProcessLookupError):
+            found += os.getpgid(int(entry.name)) == group
+    return found
+
+
+def pressed(command: list[str], after: str = "", wait_s: float = 3.0, workers: int = 0) -> tuple[int, str]:
     """(exit code, last line of what is said) of a process that is interrupted at work, with all that it has started, as
-    a terminal does it. after: what it prints before that; wait_s: else how long that takes."""
+    a terminal does it. after: what it prints before that; wait_s: else how long that takes, from when its workers
+    live."""
     running = subprocess.Popen(
         command,
         stdout=subprocess.PIPE,
@@ -82,8 +93,13 @@ def pressed(command: list[str], after: str = "", wait_s: float = 3.0) -> tuple[i
     if after:
         assert running.stdout is not None
         assert running.stdout.readline().strip() == after
-    time.sleep(0.5 if after else wait_s)
-    os.killpg(running.pid, signal.SIGINT)
+    while processes(running.pid) <= workers:
+        assert running.poll() is None, running.communicate()
+        time.sleep(0.1)
+    try:
+        running.wait(0.5 if after else wait_s)  # what is done earlier is not waited for
+    except subprocess.TimeoutExpired:
+        os.killpg(running.pid, signal.SIGINT)
     try:
         _, said = running.communicate(timeout=60)
     finally:
@@ -155,5 +171,5 @@ def test_an_interrupted_benchmark_ends_its_processes_too(tmp_path: Path) -> None
     words = ["benchmark-diagnosis", "--machine", "lathe", "--seeds", "4", "--jobs", "2", "--no-rivals"]
     command = [sys.executable, "-m", "thermodata", *words, "--out", str(tmp_path / "kept.jsonl")]
     began = time.monotonic()
-    assert pressed(command, wait_s=10.0) == INTERRUPTED
+    assert pressed(command, wait_s=2.0, workers=2) == INTERRUPTED
     assert time.monotonic() - began < 60  # the machines that are left would take minutes

@@ -19,6 +19,7 @@ from thermodata.diagnosis.locked.confirm import Confirmation, Shape
 from thermodata.diagnosis.question import responses
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.sound import Sound
+from thermodata.diagnosis.unlogged import unexplained
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, Verdict
 from thermodata.diagnosis.verdict.selection import Selection
@@ -165,6 +166,7 @@ class TestAnswer:
         monkeypatch.setattr(case, "Fits", Fits)
         monkeypatch.setattr(concluding, "left_with_named", lambda *_: None)
         monkeypatch.setattr(concluding, "as_modelled", lambda *_, **__: None)
+        monkeypatch.setattr(unexplained, "missing_heat", lambda _: None)  # of what is left here, which is white noise
         got = answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at, self.looked_for = [t.test for t in got.locked], list(got.asked)
         return got.diagnosis

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import hashlib
+import shutil
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
 from thermodata.effect.lag import lag
+from thermodata.modelling import run
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
@@ -132,5 +140,65 @@ def changed() -> Change:
             return replace(old, values=new, valid={k: np.ones(len(old.t_s), bool) for k in new})
 
         return replace(data, tests=tuple(one(t) for t in data.tests))
+
+    return make
+
+
+def write_store(folder: Path, world: Dataset, without: Mapping[str, str], fits: Sequence[Model]) -> None:
+    """Logs in `raw`, `campaign.yaml`, and `store`, which holds them and the models."""
+    (folder / "raw").mkdir()
+    for test in world.tests:
+        names = [n for n in CHANNELS if n != without.get(test.test)]
+        lines = [";".join(["t [s]", *names])]
+        table = np.column_stack([test.t_s, *(test.values[n] for n in names)])
+        lines += [";".join(f"{v:.6f}" for v in row) for row in table]
+        (folder / "raw" / f"{test.test}.csv").write_text("\n".join(lines) + "\n")
+    units = {"displacement": "um", "temperature": "degC", "rotational_speed": "rpm", "state": "1"}
+    channels = {
+        c.name: {"source": "log", "signal": c.name, "quantity": c.quantity, "unit": units[c.quantity], "at": c.at}
+        for c in CHANNELS.values()
+    }
+    channels["dZ"]["axis"] = "Z"
+    campaign = {
+        "schema": "thermodata/campaign/1",
+        "id": "c",
+        "machine": {"id": "m1", "spindle": "SP1"},
+        "sources": {
+            "log": {
+                "reader": "table",
+                "files": "raw/{test}.csv",
+                "table": {"delimiter": ";", "decimal": ".", "header_rows": 1, "time": {"column": 1, "unit": "s"}},
+            }
+        },
+        "channels": channels,
+        "tests": [{"id": t.test, "kind": "spectrum", "role": t.role} for t in world.tests],
+    }
+    (folder / "campaign.yaml").write_text(yaml.safe_dump(campaign))
+    made = Store(folder / "store", create=True)
+    ingest(made, folder / "campaign.yaml")
+    for model in fits:
+        run.fit(made, model)
+
+
+Stored = Callable[..., Store]
+
+
+@pytest.fixture(scope="session")
+def stored(once: Callable[[str, Callable[[Path], object]], Path]) -> Stored:
+    """stored(world, folder, {"t0": "T_nut"}, fits=[spec("coolant")]) -> the store that `write_store` made in a folder
+    that is empty. without: test -> channel that its log lacks. fits: models that are fitted in it. What was made of the
+    same before is copied."""
+
+    def make(
+        world: Dataset, folder: Path, without: Mapping[str, str] = MappingProxyType({}), *, fits: Sequence[Model] = ()
+    ) -> Store:
+        what = hashlib.sha256(repr((sorted(without.items()), [m.model_dump_json() for m in fits])).encode())
+        for test in world.tests:
+            what.update(repr((test.test, test.role, sorted(test.values))).encode())
+            for name in sorted(test.values):
+                what.update(test.values[name].tobytes())
+        made = once(f"stored-{what.hexdigest()[:16]}", lambda place: write_store(place, world, without, fits))
+        shutil.copytree(made, folder, dirs_exist_ok=True)
+        return Store(folder / "store")
 
     return make

@@ -15,7 +15,7 @@ from thermodata.cli.app import cli
 from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.fit.model import fit_model
-from thermodata.modelling.named import fit_named
+from thermodata.modelling.named import fit_named, newest_model
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.report.collected.history import history_rows
@@ -33,8 +33,7 @@ from thermodata.store.trace.lineage import trace
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.lists.events import about_test
 
-from .conftest import EFFECTS, Spec
-from .test_run import stored
+from .conftest import EFFECTS, Spec, Stored
 
 GROUPED = {"effect": "spindle_bearing", "gain_by": "test"}
 
@@ -66,10 +65,12 @@ def test_what_a_result_holds_predicts_as_the_fit_did(world: Dataset, spec: Spec,
 
 
 @pytest.fixture
-def edited(world: Dataset, spec: Spec, tmp_path: Path) -> tuple[Store, str, Callable[[str, str], list[str]]]:
+def edited(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> tuple[Store, str, Callable[[str, str], list[str]]]:
     """A store with a model, and an edit of its campaign file."""
-    store = stored(world, tmp_path)
-    model = run.fit(store, spec(*EFFECTS)).model
+    store = stored(world, tmp_path, fits=[spec(*EFFECTS)])
+    model = newest_model(store)
     path = tmp_path / "campaign.yaml"
 
     def edit(old: str, new: str) -> list[str]:

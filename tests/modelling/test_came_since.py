@@ -22,8 +22,7 @@ from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.grid.load import data_version
 
-from .conftest import Spec
-from .test_run import stored
+from .conftest import Spec, Stored
 
 FRESH = "c/t6 took no part in the choice of the effects: not fitted, it stays a verification test"
 
@@ -41,7 +40,7 @@ def with_tests(store: Store, path: Path, *without: str) -> None:
 
 
 def test_a_refit_fits_no_verification_test_that_came_after_the_choice(
-    world: Dataset, spec: Spec, tmp_path: Path
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
 ) -> None:
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     with_tests(store, path, "t6")
@@ -62,7 +61,9 @@ def test_a_refit_fits_no_verification_test_that_came_after_the_choice(
     assert set(roles(more).values()) == {"verification (in-sample)"}
 
 
-def test_a_test_that_took_part_does_so_again_once_it_is_back(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_a_test_that_took_part_does_so_again_once_it_is_back(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     chosen = add(store, run.fit(store, spec("ambient_frame")).model, "spindle_bearing:T_bearing", plain=True)
     with_tests(store, path, "t6")
@@ -75,7 +76,7 @@ def test_a_test_that_took_part_does_so_again_once_it_is_back(world: Dataset, spe
 
 
 def test_a_verification_test_that_came_after_the_diagnosis_is_said_to_be_fitted(
-    world: Dataset, spec: Spec, tmp_path: Path
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
 ) -> None:
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     with_tests(store, path, "t6")
@@ -99,7 +100,9 @@ def test_a_verification_test_that_came_after_the_diagnosis_is_said_to_be_fitted(
     assert not any(said in note for note in add(store, first.model, 1, plain=True).notes)
 
 
-def test_a_report_says_at_its_top_what_is_older_than_the_data(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_a_report_says_at_its_top_what_is_older_than_the_data(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     with_tests(store, path, "t6")
     first = run.fit(store, spec("ambient_frame", "coolant"))

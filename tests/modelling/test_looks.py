@@ -6,17 +6,19 @@ from pathlib import Path
 
 from thermodata.diagnosis.run import confirm_choice, diagnose
 from thermodata.modelling import run
+from thermodata.modelling.named import newest_model
 from thermodata.report.collected.collect import collect
 from thermodata.report.page.page import locked_note
 from thermodata.store.catalogue.looks import count_locked_look, locked_looks
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
-from .conftest import EFFECTS, Spec
-from .test_run import stored
+from .conftest import EFFECTS, Spec, Stored
 
 
-def test_each_response_of_a_model_is_a_look_of_its_own(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_each_response_of_a_model_is_a_look_of_its_own(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store = stored(world, tmp_path)
     both = [{"channel": "dZ"}, {"channel": "T_nut"}]
     model = run.fit(store, spec("ambient_frame", name="two", response=both)).model
@@ -24,9 +26,11 @@ def test_each_response_of_a_model_is_a_look_of_its_own(world: Dataset, spec: Spe
     assert looks == [1, 2, 2]
 
 
-def test_what_was_opened_with_another_is_new_by_itself(world: Dataset, spec: Spec, tmp_path: Path) -> None:
-    store = stored(world, tmp_path)
-    model = run.fit(store, spec("ambient_frame")).model
+def test_what_was_opened_with_another_is_new_by_itself(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    store = stored(world, tmp_path, fits=[spec("ambient_frame")])
+    model = newest_model(store)
     locked = [t.key for t in world.tests if t.role == "locked"]
     count_locked_look(store, model, locked, "confirming lag:T_bearing, feed_screw:T_nut")
     assert confirm_choice(store, model, "lag:T_bearing")[0].looks == 2
@@ -34,7 +38,9 @@ def test_what_was_opened_with_another_is_new_by_itself(world: Dataset, spec: Spe
     assert confirm_choice(store, model, "feed_screw:T_nut")[0].looks == 3, "that look stands there already"
 
 
-def test_what_no_locked_test_has_the_channel_of_is_answered_twice(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_what_no_locked_test_has_the_channel_of_is_answered_twice(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     locked = [t.test for t in world.tests if t.role == "locked"]
     store = stored(world, tmp_path, dict.fromkeys(locked, "T_nut"))
     model = run.fit(store, spec("ambient_frame", "spindle_bearing")).model
@@ -43,7 +49,9 @@ def test_what_no_locked_test_has_the_channel_of_is_answered_twice(world: Dataset
     assert confirm_choice(store, model, "feed_screw:T_nut") == (first, True)
 
 
-def test_a_report_counts_the_looks_of_all_models_as_confirm_does(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_a_report_counts_the_looks_of_all_models_as_confirm_does(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store = stored(world, tmp_path)
     first, other = (run.fit(store, spec("ambient_frame", name=name)).model for name in ("first", "other"))
     assert locked_note(collect(store, other)) == "Locked tests: none was opened."
@@ -52,10 +60,10 @@ def test_a_report_counts_the_looks_of_all_models_as_confirm_does(world: Dataset,
 
 
 def test_errors_that_were_shown_are_no_look_when_a_word_of_a_test_changed(
-    world: Dataset, spec: Spec, tmp_path: Path
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
 ) -> None:
-    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
-    model = run.fit(store, spec("ambient_frame")).model
+    store, path = stored(world, tmp_path, fits=[spec("ambient_frame")]), tmp_path / "campaign.yaml"
+    model = newest_model(store)
     first, _ = confirm_choice(store, model, "lag:T_bearing")
     path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
     assert model in ingest(store, path).stale
@@ -70,9 +78,9 @@ def test_errors_that_were_shown_are_no_look_when_a_word_of_a_test_changed(
     assert other.looks == 2, "other errors are a look"
 
 
-def test_a_diagnosis_that_tells_the_same_is_no_look(world: Dataset, spec: Spec, tmp_path: Path) -> None:
-    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
-    model = run.fit(store, spec("ambient_frame")).model
+def test_a_diagnosis_that_tells_the_same_is_no_look(stored: Stored, world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store, path = stored(world, tmp_path, fits=[spec("ambient_frame")]), tmp_path / "campaign.yaml"
+    model = newest_model(store)
     claims = [c for c in diagnose(store, model).candidates if c.claimed]
     assert claims
     path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
@@ -82,7 +90,7 @@ def test_a_diagnosis_that_tells_the_same_is_no_look(world: Dataset, spec: Spec, 
 
 
 def test_what_a_diagnosis_of_a_stale_model_opened_for_one_claim_is_no_look_for_it(
-    world: Dataset, spec: Spec, tmp_path: Path
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
 ) -> None:
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     model = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"))).model

@@ -13,11 +13,12 @@ from thermodata.modelling.named import fit_named, name_taken_over, newest_model,
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
-from .conftest import Spec
-from .test_run import stored
+from .conftest import Spec, Stored
 
 
-def test_where_none_is_named_it_is_the_one_fitted_last(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_where_none_is_named_it_is_the_one_fitted_last(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store = stored(world, tmp_path)
     first, other = (run.fit(store, spec("ambient_frame", name=name)).model for name in ("first", "other"))
     assert newest_model(store) == other
@@ -30,9 +31,11 @@ def test_where_none_is_named_it_is_the_one_fitted_last(world: Dataset, spec: Spe
     assert of_which_campaign(store, "first") is None
 
 
-def test_a_name_of_two_versions_alike_in_number_is_said_with_both(world: Dataset, spec: Spec, tmp_path: Path) -> None:
-    store = stored(world, tmp_path)
-    base = run.fit(store, spec("ambient_frame")).model
+def test_a_name_of_two_versions_alike_in_number_is_said_with_both(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    store = stored(world, tmp_path, fits=[spec("ambient_frame")])
+    base = newest_model(store)
     one, other = (add(store, base, name, plain=True).model for name in ("spindle_bearing", "feed_screw"))
     line = f"'base': {other}, the newest of that name; {one} is version 2 too, with other effects"
     assert of_which_version(store, "base") == line
@@ -41,10 +44,12 @@ def test_a_name_of_two_versions_alike_in_number_is_said_with_both(world: Dataset
     assert line in CliRunner().invoke(cli, ["--store", str(store.path), "history", "base"]).stderr
 
 
-def test_a_fit_that_takes_a_name_from_a_longer_chain_says_so(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_a_fit_that_takes_a_name_from_a_longer_chain_says_so(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     """After a change of the data the first version is fitted anew, and its name leaves out what was added."""
-    store = stored(world, tmp_path)
-    base = run.fit(store, spec("ambient_frame")).model
+    store = stored(world, tmp_path, fits=[spec("ambient_frame")])
+    base = newest_model(store)
     assert name_taken_over(store, base) is None
     added = add(store, base, "feed_screw", plain=True).model
     assert (name_taken_over(store, base), name_taken_over(store, added)) == (None, None)
@@ -62,7 +67,9 @@ def test_a_fit_that_takes_a_name_from_a_longer_chain_says_so(world: Dataset, spe
     assert name_taken_over(store, again) == line
 
 
-def test_a_name_of_several_campaigns_is_said_with_the_campaign(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_a_name_of_several_campaigns_is_said_with_the_campaign(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     store = stored(world, tmp_path)
     path = tmp_path / "campaign.yaml"
     path.write_text(path.read_text().replace("id: c\n", "id: d\n"))

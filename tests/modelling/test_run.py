@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
-import numpy as np
 import pytest
 import yaml
 
@@ -37,47 +34,12 @@ from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
-from .conftest import CHANNELS, EFFECTS, TRUTH, Spec
+from .conftest import EFFECTS, TRUTH, Spec, Stored
 
 
 @pytest.fixture(scope="module")
-def store(world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
+def store(stored: Stored, world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
     return stored(world, tmp_path_factory.mktemp("campaign"))
-
-
-def stored(world: Dataset, folder: Path, without: Mapping[str, str] = MappingProxyType({})) -> Store:
-    """A store of the tests. without: test -> channel that its log lacks."""
-    (folder / "raw").mkdir()
-    for test in world.tests:
-        names = [n for n in CHANNELS if n != without.get(test.test)]
-        lines = [";".join(["t [s]", *names])]
-        table = np.column_stack([test.t_s, *(test.values[n] for n in names)])
-        lines += [";".join(f"{v:.6f}" for v in row) for row in table]
-        (folder / "raw" / f"{test.test}.csv").write_text("\n".join(lines) + "\n")
-    units = {"displacement": "um", "temperature": "degC", "rotational_speed": "rpm", "state": "1"}
-    channels = {
-        c.name: {"source": "log", "signal": c.name, "quantity": c.quantity, "unit": units[c.quantity], "at": c.at}
-        for c in CHANNELS.values()
-    }
-    channels["dZ"]["axis"] = "Z"
-    campaign = {
-        "schema": "thermodata/campaign/1",
-        "id": "c",
-        "machine": {"id": "m1", "spindle": "SP1"},
-        "sources": {
-            "log": {
-                "reader": "table",
-                "files": "raw/{test}.csv",
-                "table": {"delimiter": ";", "decimal": ".", "header_rows": 1, "time": {"column": 1, "unit": "s"}},
-            }
-        },
-        "channels": channels,
-        "tests": [{"id": t.test, "kind": "spectrum", "role": t.role} for t in world.tests],
-    }
-    (folder / "campaign.yaml").write_text(yaml.safe_dump(campaign))
-    made = Store(folder / "store", create=True)
-    ingest(made, folder / "campaign.yaml")
-    return made
 
 
 def test_a_fit_is_kept_with_its_scores_and_contributions(store: Store, spec: Spec) -> None:
@@ -189,7 +151,9 @@ def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec:
     assert other.notes[1:] == ["verification tests stay fitted (in-sample), for they helped to choose what is left"]
 
 
-def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_versions_are_compared_over_the_tests_that_both_predict(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     lost = next(t.test for t in world.tests if t.role == "calibration")
     store = stored(world, tmp_path, without={lost: "T_nut"})
     parent = run.fit(store, spec("spindle_bearing", name="some"))
@@ -405,7 +369,9 @@ def test_carrying_over(store: Store, spec: Spec) -> None:
         assert con.execute("select count(distinct test) from portability").fetchone() == (7,)
 
 
-def test_carrying_over_to_another_campaign_of_the_store(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+def test_carrying_over_to_another_campaign_of_the_store(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
     """The other machine, a quarter stronger, has the same channels; one of its tests is locked there."""
     few = replace(world, tests=world.tests[:3])
     made = stored(few, tmp_path)
@@ -457,7 +423,7 @@ def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> 
 
 @pytest.mark.parametrize("how", ["fit", "add", "remove"])
 def test_what_is_made_while_an_ingest_changes_the_data_is_of_the_data_as_they_are_kept(
-    world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch, how: str
+    stored: Stored, world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch, how: str
 ) -> None:
     store = stored(world, tmp_path)
     wished = spec("spindle_bearing", "ambient_frame", name="beside")
@@ -489,7 +455,7 @@ def test_what_is_made_while_an_ingest_changes_the_data_is_of_the_data_as_they_ar
 
 
 def test_data_that_never_stand_still_are_said_and_nothing_of_them_is_kept(
-    world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch
+    stored: Stored, world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = stored(world, tmp_path)
     alone = run.fit_alone

@@ -18,8 +18,7 @@ from thermodata.store.catalogue.findings import save_diagnosis
 from thermodata.store.catalogue.models import find_model
 from thermodata.view.grid.dataset import Dataset
 
-from .conftest import Spec
-from .test_run import stored
+from .conftest import Spec, Stored
 
 SLIP = Artefact(kind="step", campaign="c", test="t2", at_s=4 * 3600.0, size_um=14.04, why="")
 
@@ -48,7 +47,7 @@ def slipped(world: Dataset, size: float = 14.0) -> Dataset:
 
 
 @pytest.fixture(scope="module")
-def store(world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
+def store(stored: Stored, world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
     return stored(slipped(world), tmp_path_factory.mktemp("slipped"))
 
 
