@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,12 @@ def made(dead: Course, others: float = 1.0, moves: float = 6.0, count: int = 3, 
 def test_a_sensor_that_stands_while_the_machine_moves_is_dead() -> None:
     assert dead_throughout(made(course(0.0))) == {("c", "T")}
     assert dead_throughout(made(course(1.0))) == set(), "it moves"
+
+
+def test_one_that_shows_other_readings_between_the_points_is_coarse_in_a_calm_place() -> None:
+    calm = replace(course(0.0), flickers=True)
+    assert dead_throughout(made(calm)) == set()
+    assert dead_throughout(made(course(0.0), moves=6.0)) == {("c", "T")}
 
 
 @pytest.mark.parametrize(("others", "said"), [(0.6, True), (0.4, False)])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,3 +65,29 @@ def test_tests_in_fahrenheit_are_asked_and_one_that_was_warm_before_is_not(
     questions = {c.name: " ".join(c.said.questions) for c in draft_files(tmp_path).draft.channels}
     assert ("unit: in c.csv, d.csv values" in questions["T_bearing"]) is asked
     assert ("degF there" in questions["T_hall"]) is asked
+
+
+@pytest.mark.parametrize(
+    ("motor", "asked"),
+    [
+        ([lambda w: (21.1 + 14 * w) * 1.8 + 32, lambda w: (19.4 + 12 * w) * 1.8 + 32], True),
+        # the nearest that are in degC: warm before one test, warm by another reading, kept warm, cold before
+        ([lambda w: 70 + 20 * w, lambda w: 52 + 20 * w], False),
+        ([lambda w: 76 + 20 * w, lambda w: 75 + 20 * w], False),
+        ([lambda w: 70 + 0.4 * w, lambda w: 69 + 0.4 * w], False),
+        ([lambda w: 21.1 + 50 * w, lambda w: 19.4 + 45 * w], False),
+    ],
+)
+def test_one_in_fahrenheit_beside_others_in_degrees_is_asked_though_the_head_says_degrees(
+    tmp_path: Path, motor: list[Callable[[Any], Any]], asked: bool
+) -> None:
+    t = np.arange(300) * 30.0
+    warm = 1 - np.exp(-t / 3000)
+    for k, (read, hall) in enumerate(zip(motor, (20.8, 19.2), strict=True)):
+        parts = [hall + size * warm for size in (0.5, 4.0, 9.0)]
+        columns = [numbers(t, 0), *(numbers(x, 2) for x in (*parts, read(warm)))]
+        heads = ["t [s]", "T_hall [degC]", "T_bed [degC]", "T_nut_Z [degC]", "T_motor_Z [degC]"]
+        text(tmp_path / f"run{k}.csv", heads, columns, mark=",")
+    said = {c.name: [q for q in c.said.questions if q.startswith("unit")] for c in draft_files(tmp_path).draft.channels}
+    assert bool(said.pop("T_motor_Z")) == asked
+    assert not any(said.values())

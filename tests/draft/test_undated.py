@@ -118,6 +118,33 @@ def test_local_times_within_the_hour_that_repeats_ask_which_pass(tmp_path: Path,
 
 
 @pytest.mark.parametrize(
+    ("logs", "said"),
+    [
+        ((("25T00:00", 150), ("25T02:05", 50), ("25T05:05", 50)), "in its second pass, as hall_1.csv before it says"),
+        ((("25T01:00", 50), ("25T02:05", 50), ("25T02:00", 180)), "in its first pass, as hall_3.csv behind it says"),
+        ((("25T01:00", 50), ("25T02:05", 50), ("25T03:05", 50)), "for the first pass, 2026-10-25T02:05:00+01:00"),
+        ((("25T00:00", 240), ("25T02:05", 50), ("25T05:00", 50)), "for the first pass, 2026-10-25T02:05:00+01:00"),
+        ((("24T00:00", 180), ("25T02:05", 50), ("26T02:00", 180)), "for the first pass, 2026-10-25T02:05:00+01:00"),
+    ],
+)
+def test_other_logs_of_the_source_tell_the_pass_of_one_in_the_hour_that_repeats(
+    tmp_path: Path, logs: tuple[tuple[str, int], ...], said: str
+) -> None:
+    """As those of a hall, in a folder of their own."""
+    (tmp_path / "hall").mkdir()
+    for i, (first, minutes) in enumerate(logs, 1):
+        at = np.datetime64(f"2026-10-{first}:00") + np.arange(2 * minutes) * np.timedelta64(30, "s")
+        values = (f"{x};{20 + k / 90:.2f};{19 + k / 99:.2f}" for k, x in enumerate(at))
+        rows = ["time;T_hall [degC];T_floor [degC]", *values, ""]
+        (tmp_path / "hall" / f"hall_{i}.csv").write_text("\n".join(rows))
+    draft = draft_files(tmp_path).draft
+    (asked,) = [q for s in draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert said in asked
+    zone = "+01:00" if "second pass, as" in said else "+02:00"
+    assert f"with it give the test its start: 2026-10-25T02:05:00{zone}" in asked
+
+
+@pytest.mark.parametrize(
     ("parts", "asks"),
     [
         ((("25T00:00", 110), ("25T02:05", 40)), False),  # the start is of the part before

@@ -24,7 +24,8 @@ _AS_ELSEWHERE = 0.5  # of what the others move by in their other tests: a quiet 
 
 
 def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
-    """(test, channel) of each temperature that stands through a test of an hour and more, to the last digit."""
+    """(test, channel) of each temperature that stands through a test of an hour and more, to the last digit. A coarse
+    one in a calm place does so at all moments of a test that are kept, and shows the next tread between them."""
     courses: dict[str, dict[str, Float1D]] = {}
     for test in tests if len(tests) > 1 else ():
         for name, course in test.series.items():
@@ -49,6 +50,8 @@ def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
                 moved.setdefault(key, []).append(span / usual[name])
     alive = {t for t, r in moved.items() if len(r) >= _LEAST_OTHERS and float(np.median(r)) >= _AS_ELSEWHERE}
 
+    flickers = {(test.test, name) for test in tests for name, course in test.series.items() if course.flickers}
+
     def rests(name: str, test: str) -> bool:
         others = [r[test] for n, r in ranges.items() if n != name and test in r]
         return float(np.quantile(others, _AT_REST)) < _REST_TREADS * standing[name]
@@ -57,7 +60,7 @@ def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
         (test, name)
         for name in standing
         for test, span in ranges[name].items()
-        if span == 0 and test in alive and not rests(name, test)
+        if span == 0 and test in alive and (test, name) not in flickers and not rests(name, test)
     }
 
 

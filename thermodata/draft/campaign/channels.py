@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import replace
 
+from thermodata.draft.campaign.beside_others import coldest_in, in_fahrenheit
 from thermodata.draft.campaign.of_exports import as_exported
 from thermodata.draft.campaign.orientation import calibration_of, moved_too, reads_a_length, sign_of
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.campaign.wished_names import wished_name, with_series
-from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.legend import IN_LEGEND, TOLD_TOO
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
-from thermodata.draft.signals.guess import called, guess, guess_of, told_of
+from thermodata.draft.signals.guess import called, guess, told_of
 from thermodata.draft.signals.head_said import with_head, with_text
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
-from thermodata.draft.signals.values import Values, in_unit, joined, least_reading
+from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
@@ -281,17 +280,11 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"
         return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
-    coldest = {str(f.path): _coldest(f) for f in one.files} if said.quantity == "temperature" else None
-    questions = [unit_question(said.quantity, seen, coldest) if None in units else None]
+    coldest = {str(f.path): coldest_in(f) for f in one.files} if said.quantity == "temperature" else None
+    questions = [unit_question(said.quantity, seen, coldest) if None in units else in_fahrenheit(said, one)]
     if len(called_so) > 1 and said.quantity:
         names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in called_so.most_common())
         questions.append(f"the same in all tests? the files call it {names}")
     if asked_of := [q for q in questions if q]:
         said = replace(said, sure=False, questions=(*said.questions, *asked_of))
     return said, note
-
-
-def _coldest(file: RawFile) -> float:
-    """The lowest reading of all temperatures without a unit in a file; infinite where there is none."""
-    seen = [(s, file.sample.values.get((s.stream, s.name))) for s in file.signals if s.unit is None]
-    return min((least_reading(v) for s, v in seen if v and guess_of(s, v).quantity == "temperature"), default=math.inf)

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.reader.times.repeated_hour import repeated_hour
+from thermodata.reader.times.repeated_hour import RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import utc_offset_ns
+from thermodata.store.ingest.reading.resolve import natural
 
 
 def which_pass(group: Group, groups: Sequence[Group], proposed: str) -> str:
@@ -24,11 +25,32 @@ def which_pass(group: Group, groups: Sequence[Group], proposed: str) -> str:
         others = [f for g in groups for f in g.tests.get(test, ()) if _passes(f, zone) is None]
         began = _local_ns(first, zone) or 0
         if all((at := _local_ns(f, zone)) is None or at >= began for f in others):
+            said = f"; all times of {first.path.name} lie in the hour that this zone repeats"
+            if (told := _by_order(group, first, zone)) is not None:
+                second, other = told
+                where = f"in its {'second' if second else 'first'} pass, as {other.path.name} "
+                where += "before it says" if second else "behind it says"
+                return f"{said}, {where}: with it give the test its start: {passes[second]}"
             return (
-                f"; all times of {first.path.name} lie in the hour that this zone repeats: with it give the test its "
-                f"start: {passes[0]} for the first pass, {passes[1]} for the second"
+                f"{said}: with it give the test its start: {passes[0]} for the first pass, {passes[1]} for the second"
             )
     return ""
+
+
+def _by_order(group: Group, file: RawFile, zone: str) -> tuple[bool, RawFile] | None:
+    """(whether a file is of the second pass, what says so): of the logs of its source one before it, by name, ends in
+    the hour later by the local clock than it begins, or one behind it begins there earlier than it ends. None where
+    neither is so, or both."""
+    ordered = sorted(group.files, key=lambda f: natural(f.path.as_posix()))
+    at = next(i for i, f in enumerate(ordered) if f.path == file.path)
+    begin, end = file.sample.first_ns or 0, file.sample.last_ns or 0
+    ended = [(f, f.sample.last_ns) for f in ordered[:at] if f.local and f.sample.whole]
+    begun = [(f, f.sample.first_ns) for f in ordered[at + 1 :] if f.local]
+    second = next((f for f, t in ended if t is not None and t > begin and _hour_at(t, zone)), None)
+    first = next((f for f, t in begun if t is not None and t < end and _hour_at(t, zone)), None)
+    if (second is None) == (first is None):
+        return None
+    return (True, second) if second is not None else (False, first) if first is not None else None
 
 
 def _passes(file: RawFile, zone: str) -> tuple[str, str] | None:
@@ -36,12 +58,20 @@ def _passes(file: RawFile, zone: str) -> tuple[str, str] | None:
     first, last = file.sample.first_ns, file.sample.last_ns
     if not file.local or first is None or last is None:
         return None
-    # read as UTC meanwhile
-    ahead = utc_offset_ns(zone, first // 10**9 - 24 * 3600)
-    hour = repeated_hour(zone, first - ahead)
+    hour, ahead = _hour_at(first, zone), _ahead(first, zone)
     if hour is None or not hour.in_first(last - ahead):
         return None
     return hour.written(first - ahead, second=False), hour.written(first - ahead, second=True)
+
+
+def _ahead(local_ns: int, zone: str) -> int:
+    """How far local times were ahead of UTC before that night [ns]."""
+    return utc_offset_ns(zone, local_ns // 10**9 - 24 * 3600)
+
+
+def _hour_at(local_ns: int, zone: str) -> RepeatedHour | None:
+    """The hour that a zone repeats where a local time, which is read as UTC meanwhile, lies in it."""
+    return repeated_hour(zone, local_ns - _ahead(local_ns, zone))
 
 
 def _local_ns(file: RawFile, zone: str) -> int | None:

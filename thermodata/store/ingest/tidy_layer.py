@@ -26,6 +26,7 @@ from thermodata.store.ingest.told.empty_channels import empty_channels
 from thermodata.store.ingest.told.losses import Losses, loss_row
 from thermodata.store.ingest.told.other_heads import head_of, other_heads
 from thermodata.store.ingest.told.other_units import other_units
+from thermodata.store.tidy.clock.cut_short import cut_short
 from thermodata.store.tidy.clock.lent import dated_sources, lent
 from thermodata.store.tidy.clock.source_clock import Clock, Span, span
 from thermodata.store.tidy.clock_offsets import clocks_of
@@ -197,6 +198,7 @@ class _Tidier:
     def tidy(self, plan: TestPlan, clocks: dict[str, Clock]) -> _Tidied:
         """Every stream of a test, kept where the store has it already. clocks: of its sources."""
         test = _Tidied(plan, clocks, span(plan, clocks))
+        plan.notes.extend(said for said in cut_short(plan, clocks) if said not in plan.notes)
         series = self._series(test)
         for member in plan.members():
             if member[0] == SCHEDULE and not any(s.raws for s in plan.sources.values()):

@@ -20,6 +20,7 @@ from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.words.places import is_at_tool
+from thermodata.store.tidy.flags.flicker import Flicker
 
 if TYPE_CHECKING:
     from thermodata.store.tidy.plan.plan import Bound
@@ -88,6 +89,7 @@ class Sampler:
             if not (b.channel.quantity == "temperature" and is_at_tool(b.channel.at))
         }
         self._off = {name: np.zeros(len(self._rows), dtype=bool) for name in self._points}
+        self._flickers = {b.name: Flicker() for b in mine if b.channel.quantity == "temperature"}
         self._readings: dict[str, Reading | None] = {b.name: None for b in mine if b.channel.quantity in _HELD}
         self._pauses: list[tuple[float, float]] = []
         self._last_s: float | None = None
@@ -104,6 +106,9 @@ class Sampler:
                 flags = columns[name].flags[at]
                 self._points[name][here] = np.where((flags & _SEEN) == 0, columns[name].values[at], np.nan)
                 self._off[name][here] = (flags & np.uint16(Flag.OFFSET)) != 0
+        for name, flicker in self._flickers.items():
+            if name in columns:
+                flicker.take(_as_read(columns[name]))
         for name in self._readings:
             if name in columns:
                 self._readings[name] = _more(self._readings[name], columns[name], t_s)
@@ -121,7 +126,8 @@ class Sampler:
 
     def levels(self) -> dict[str, Any]:
         """Ready for JSON: t_s, values (None where nothing valid is), off (points at which the channel is flagged as
-        off), pauses, readings. Empty where no channel is slow."""
+        off), pauses, readings, flickers (temperatures whose samples are not all alike). Empty where no channel is
+        slow."""
         values = {n: _rounded(p) for n, p in self._points.items() if np.isfinite(p).any()}
         if not values:
             return {}
@@ -133,7 +139,15 @@ class Sampler:
             "off": {n: np.flatnonzero(o).tolist() for n, o in self._off.items() if o.any()},
             "pauses": longest,
             "readings": readings,
+            "flickers": [n for n, f in self._flickers.items() if f.told],
         }
+
+
+def _as_read(column: Column) -> Float1D:
+    """The values of a channel, NaN where they are none of it. What stands is wanted here: a verdict that flags it must
+    come out the same once it is flagged."""
+    judged = np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK | Flag.SATURATED))
+    return np.where((column.flags & judged) == 0, column.values, np.nan)
 
 
 def _rounded(x: Float1D) -> list[float | None]:
@@ -142,9 +156,7 @@ def _rounded(x: Float1D) -> list[float | None]:
 
 def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
     """How a channel reads, from the chunk in which it moves most; and its longest stretch of one value in any."""
-    # what stands is wanted here: a verdict that flags it must come out the same once it is flagged
-    judged = np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK | Flag.SATURATED))
-    x = np.where((column.flags & judged) == 0, column.values, np.nan)
+    x = _as_read(column)
     stats = run_stats(x)
     d = np.diff(x)
     moving = int(np.count_nonzero(d[np.isfinite(d)]))
@@ -221,7 +233,15 @@ def levels_of(
         for name, values in levels["values"].items():
             off = np.zeros(len(t_s), dtype=bool)
             off[levels["off"].get(name, [])] = True
-            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off, name in powered, name in around)
+            series[name] = Course(
+                t_s,
+                _numbers(values),
+                quantities.get(name, ""),
+                off,
+                name in powered,
+                name in around,
+                name in levels.get("flickers", ()),
+            )
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
     if not series:
