@@ -55,3 +55,16 @@ def test_a_list_of_tests_offers_their_roles(tmp_path: Path, say: Callable[..., S
     assert all("role: none" in x for x in lines)
     for line, role in zip(lines, ("calibration", "verification", "locked"), strict=True):
         assert f"? role: {role}, as the table's 'verwendung' says?" in line
+
+
+@pytest.mark.parametrize(("names", "told"), [(("run",), True), (("run 1", "run 2"), False)])
+def test_a_test_alone_is_to_be_cut_so_that_some_of_it_can_confirm(
+    tmp_path: Path, say: Callable[..., Said], names: tuple[str, ...], told: bool
+) -> None:
+    for name in names:
+        rows = "".join(f"{k};{20 + k / 10:.1f}\n" for k in range(60))
+        (tmp_path / f"{name}.csv").write_text("time [s];T_front [degC]\n" + rows)
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    (head,) = [x for x in text.splitlines() if x.startswith("tests:")]
+    assert ("window: [0 h, 16 h], history: recording" in head) == told

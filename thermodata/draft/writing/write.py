@@ -14,6 +14,10 @@ from thermodata.schema.agreed.left_out import left_out
 
 _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
 _ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"
+_ALONE = (
+    "one test leaves none to confirm by: of a long one make several, a line each, cut where all is at rest, as "
+    "window: [0 h, 16 h], history: recording"
+)
 _WORDS = frozenset(("yes", "no", "on", "off", "true", "false", "null", "y", "n"))
 _OPEN = "?"
 _MOST_KINDS = 8
@@ -181,6 +185,8 @@ def _tests(draft: Draft) -> list[str]:
     lines = [f"tests:   # {_ROLES}"]
     if draft.table is not None:
         lines[0] += f"; conditions from {one_line(draft.table.file)}, column '{one_line(draft.table.key)}'"
+    if len(draft.tests) == 1 and draft.tests[0].window is None:
+        lines[0] += f"; {_ALONE}"
     return lines + [_test(t) for t in draft.tests]
 
 
