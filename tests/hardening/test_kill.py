@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import random
 import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import duckdb
@@ -24,28 +25,25 @@ from thermodata.store.ingest.reading import campaign_files  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
 from thermodata.store.keep.lifecycle import gc  # noqa: E402
 
+Victim = Callable[..., tuple[int, int]]
 
-def victim(op: str, store: Path, argument: object, die_at: int = 0) -> tuple[int, int]:
-    """(exit code, steps)."""
-    done = subprocess.run(
-        [
-            sys.executable,
-            str(HERE / "victim.py"),
-            op,
-            str(store),
-            str(argument),
-            "--die-at",
-            str(die_at),
-            "--fakes",
-            str(HERE.parent / "store"),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert done.returncode in (0, -signal.SIGKILL), done.stdout + done.stderr
-    return done.returncode, int(done.stdout.split()[-1]) if done.returncode == 0 else 0
+
+@pytest.fixture(scope="module")
+def victim() -> Iterator[Victim]:
+    """victim(op, store, argument, die_at) -> (exit code, steps) of a process of its own."""
+    words = [sys.executable, str(HERE / "victim.py"), "serve"]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdin is not None
+        assert server.stdout is not None
+
+        def run(op: str, store: Path, argument: object, die_at: int = 0) -> tuple[int, int]:
+            asked = [op, str(store), str(argument), "--die-at", str(die_at), "--fakes", str(HERE.parent / "store")]
+            print(json.dumps(asked), file=server.stdin, flush=True)
+            code, said = json.loads(server.stdout.readline())
+            assert code in (0, -signal.SIGKILL), said
+            return code, int(said.split()[-1]) if code == 0 else 0
+
+        yield run
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +77,9 @@ def moments(steps: int, count: int, seed: int) -> list[int]:
     return sorted({*last, *random.Random(seed).sample(range(1, steps + 1), min(count, steps))})
 
 
-def test_a_killed_ingest_leaves_the_store_before_or_after_and_goes_on(lab: Path, tmp_path: Path) -> None:
+def test_a_killed_ingest_leaves_the_store_before_or_after_and_goes_on(
+    victim: Victim, lab: Path, tmp_path: Path
+) -> None:
     campaign = lab / "lab/campaign.yaml"
     _, steps = victim("ingest", fresh(lab / "before/store", tmp_path, 0), campaign)
     assert steps > 15
@@ -97,7 +97,7 @@ def test_a_killed_ingest_leaves_the_store_before_or_after_and_goes_on(lab: Path,
     assert seen == {0, 7460}
 
 
-def test_a_killed_forget_leaves_the_store_before_or_after(lab: Path, tmp_path: Path) -> None:
+def test_a_killed_forget_leaves_the_store_before_or_after(victim: Victim, lab: Path, tmp_path: Path) -> None:
     _, steps = victim("forget", fresh(lab / "after/store", tmp_path, 0), "shop/one")
     found = []
     for die_at in moments(steps, 1, seed=2):
@@ -107,7 +107,7 @@ def test_a_killed_forget_leaves_the_store_before_or_after(lab: Path, tmp_path: P
     assert found[-2:] == [7460, 3730]  # either side of the commit
 
 
-def test_a_killed_gc_leaves_a_whole_store_and_goes_on(lab: Path, tmp_path: Path) -> None:
+def test_a_killed_gc_leaves_a_whole_store_and_goes_on(victim: Victim, lab: Path, tmp_path: Path) -> None:
     def start(n: object) -> Path:
         store = fresh(lab / "after/store", tmp_path, n)
         for i in range(4):
@@ -125,7 +125,9 @@ def test_a_killed_gc_leaves_a_whole_store_and_goes_on(lab: Path, tmp_path: Path)
         assert whole.check(store)["sample"] == 7460
 
 
-def test_a_killed_migration_leaves_the_old_store_or_the_new_one_and_a_whole_backup(lab: Path, tmp_path: Path) -> None:
+def test_a_killed_migration_leaves_the_old_store_or_the_new_one_and_a_whole_backup(
+    victim: Victim, lab: Path, tmp_path: Path
+) -> None:
     def asked(path: Path, query: str) -> object:
         con = duckdb.connect(str(path), read_only=True)
         try:
@@ -149,7 +151,7 @@ def test_a_killed_migration_leaves_the_old_store_or_the_new_one_and_a_whole_back
     assert victim("migrate", store, "-")[0] == 0
 
 
-def test_a_killed_snapshot_is_no_snapshot(lab: Path, tmp_path: Path) -> None:
+def test_a_killed_snapshot_is_no_snapshot(victim: Victim, lab: Path, tmp_path: Path) -> None:
     store = fresh(lab / "after/store", tmp_path, "s")
     out = tmp_path / "s/all.duckdb"
     _, steps = victim("snapshot", store, out)

@@ -2,15 +2,22 @@
 
 OP: ingest, forget, gc, migrate, snapshot. It prints `ready`, works, and prints `steps N`. With --die-at it kills
 itself with SIGKILL at the N-th step: a file made, renamed or removed in the store, or either side of a commit.
+
+`victim.py serve` does so in a process of its own for each line of words (JSON), forked from one that has imported what
+they need, and answers with a line: the exit code, and what was said.
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib
+import json
 import os
 import signal
 import sys
+import tempfile
+import traceback
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -52,14 +59,39 @@ class Watched:
         return done
 
 
-def main() -> None:
+def serve() -> None:
+    for name in ("ingest.run", "keep.lifecycle", "keep.snapshot", "views.regenerate"):
+        importlib.import_module(f"thermodata.store.{name}")
+    for line in sys.stdin:
+        with tempfile.TemporaryFile() as said:
+            pid = os.fork()
+            if not pid:
+                signal.alarm(120)
+                os.dup2(said.fileno(), 1)
+                os.dup2(said.fileno(), 2)
+                code = 1
+                try:
+                    main(json.loads(line))
+                    code = 0
+                except BaseException:
+                    traceback.print_exc()
+                finally:
+                    sys.stdout.flush()
+                    sys.stderr.flush()
+                    os._exit(code)
+            code = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+            said.seek(0)
+            print(json.dumps([code, said.read().decode()]), flush=True)
+
+
+def main(words: Sequence[str]) -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("op")
     parser.add_argument("store", type=Path)
     parser.add_argument("argument")
     parser.add_argument("--die-at", type=int, default=0)
     parser.add_argument("--fakes", default="", help="a folder with store_fakes.py")
-    given = parser.parse_args()
+    given = parser.parse_args(words)
     if given.fakes:
         sys.path.insert(0, given.fakes)
         importlib.import_module("store_fakes").install()
@@ -100,4 +132,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1:] == ["serve"]:
+        serve()
+    else:
+        main(sys.argv[1:])

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -52,26 +54,65 @@ class Served:
         self.page.press(selector)
 
 
-@pytest.fixture
-def served(lab: Path, chromium: Chromium) -> Iterator[Served]:
+@contextmanager
+def workbench(lab: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A process of its own over a lab, and the address that lets a browser in."""
     process = subprocess.Popen(
         [sys.executable, "-m", "thermodata", "workbench", str(lab), "--write", "--no-browser", "--json"],
         stdout=subprocess.PIPE,
         text=True,
     )
-    assert process.stdout is not None
-    text = ""
-    while not text.rstrip().endswith("}"):
-        text += process.stdout.readline()
-    address = json.loads(text)["address"]
-    page = chromium.open(address)
-    page.wait("location.pathname === '/' && document.readyState === 'complete'")
     try:
-        yield Served(page, f"http://{urlsplit(address).netloc}", lab, process)
+        assert process.stdout is not None
+        text = ""
+        while not text.rstrip().endswith("}"):
+            text += process.stdout.readline()
+        yield process, json.loads(text)["address"]
     finally:
-        page.close()
         process.kill()
         process.wait()
+
+
+@contextmanager
+def tab(chromium: Chromium, address: str) -> Iterator[Page]:
+    page = chromium.open(address)
+    try:
+        page.wait("location.pathname === '/' && document.readyState === 'complete'")
+        yield page
+    finally:
+        page.close()
+
+
+@pytest.fixture
+def served(lab: Path, chromium: Chromium) -> Iterator[Served]:
+    with workbench(lab) as (process, address), tab(chromium, address) as page:
+        yield Served(page, f"http://{urlsplit(address).netloc}", lab, process)
+
+
+@pytest.fixture(scope="module")
+def reading(made_lab: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Chromium], Served]]:
+    """Lets each browser in once, to a workbench over the same lab."""
+    lab = tmp_path_factory.mktemp("read") / "lab"
+    shutil.copytree(made_lab, lab)
+    with ExitStack() as kept:
+        made: dict[Chromium, Served] = {}
+
+        def of(chromium: Chromium) -> Served:
+            if chromium not in made:
+                process, address = kept.enter_context(workbench(lab))
+                first = kept.enter_context(tab(chromium, address))
+                made[chromium] = Served(first, f"http://{urlsplit(address).netloc}", lab, process)
+            return made[chromium]
+
+        yield of
+
+
+@pytest.fixture
+def read(reading: Callable[[Chromium], Served], chromium: Chromium) -> Iterator[Served]:
+    """As `served`, over the workbench of all tests that change nothing."""
+    shared = reading(chromium)
+    with tab(chromium, shared.origin + "/") as page:
+        yield replace(shared, page=page)
 
 
 def looks(lab: Path) -> int:
@@ -80,18 +121,18 @@ def looks(lab: Path) -> int:
     return int(row[0])
 
 
-def test_every_page_wide_narrow_light_and_dark(served: Served) -> None:
+def test_every_page_wide_narrow_light_and_dark(read: Served) -> None:
     """No complaint, no request elsewhere, nothing wider than the window; looking opens no lock."""
-    before = looks(served.lab)
+    before = looks(read.lab)
     for path in PAGES:
         for width, dark in ((1280, False), (390, True)):
-            served.page.look(width, 900, dark)
-            served.go(path)
-            served.page.js("document.querySelectorAll('[data-chart]').forEach(b => ThermoChart.of(b))")
-            served.page.wait(FITS, timeout_s=60)
-    assert served.page.complaints() == []
-    assert {urlsplit(u).netloc for u in served.page.requests()} == {urlsplit(served.origin).netloc}
-    assert looks(served.lab) == before
+            read.page.look(width, 900, dark)
+            read.go(path)
+            read.page.js("document.querySelectorAll('[data-chart]').forEach(b => ThermoChart.of(b))")
+            read.page.wait(FITS, timeout_s=60)
+    assert read.page.complaints() == []
+    assert {urlsplit(u).netloc for u in read.page.requests()} == {urlsplit(read.origin).netloc}
+    assert looks(read.lab) == before
 
 
 # pairs of texts or charts that lie over each other, and what stands out of the paper; none is good
@@ -120,16 +161,16 @@ OVERLAPS = """(() => {
 })()"""
 
 
-def test_pages_print_without_overlaps(served: Served, tmp_path: Path) -> None:
+def test_pages_print_without_overlaps(read: Served, tmp_path: Path) -> None:
     for i, path in enumerate(("/", "/test?campaign=small&test=heat1", "/missing", "/compare")):
-        served.go(path)
-        served.page.wait("document.readyState === 'complete'")
-        served.page.paper()
-        assert served.page.js(OVERLAPS) == [], path
-        served.page.paper(False)
-        served.page.pdf(tmp_path / f"{i}.pdf")
+        read.go(path)
+        read.page.wait("document.readyState === 'complete'")
+        read.page.paper()
+        assert read.page.js(OVERLAPS) == [], path
+        read.page.paper(False)
+        read.page.pdf(tmp_path / f"{i}.pdf")
         assert (tmp_path / f"{i}.pdf").read_bytes().startswith(b"%PDF")
-    assert served.page.complaints() == []
+    assert read.page.complaints() == []
 
 
 def test_the_search_for_overlaps_finds_one(chromium: Chromium) -> None:
@@ -178,15 +219,15 @@ def test_two_tabs_at_once(served: Served, chromium: Chromium) -> None:
         other.close()
 
 
-def test_axe_finds_no_violation(served: Served) -> None:
+def test_axe_finds_no_violation(read: Served) -> None:
     named = os.environ.get("THERMODATA_AXE")
     if not named:
         pytest.skip("no axe-core: name its axe.min.js in THERMODATA_AXE; .ci/run fetches it")
     rules = Path(named).read_text(encoding="utf-8")
     for path in PAGES:
-        served.go(path)
-        served.page.js(rules + "; 0")
-        found = served.page.js(
+        read.go(path)
+        read.page.js(rules + "; 0")
+        found = read.page.js(
             "axe.run().then(r => r.violations.map(v => v.id + ': ' + v.nodes.map(n => n.target.join(' ')).join(', ')))"
         )
         assert found == [], path
@@ -215,8 +256,8 @@ def test_the_story_by_mouse(served: Served) -> None:
     assert served.page.complaints() == []
 
 
-def test_the_way_by_keyboard_alone(served: Served) -> None:
-    page = served.page
+def test_the_way_by_keyboard_alone(read: Served) -> None:
+    page = read.page
     page.js("document.querySelector('table.tests td.name a').focus()")
     page.key("Enter")
     page.wait("location.pathname === '/test' && !!document.querySelector('#plot canvas')")
@@ -231,10 +272,10 @@ def test_the_way_by_keyboard_alone(served: Served) -> None:
     assert page.complaints() == []
 
 
-def test_a_zoom_in_the_address_is_shown_again(served: Served) -> None:
-    served.go("/test?campaign=small&test=heat1&from=3600&to=7200")
-    served.page.wait("ThermoChart.of(document.getElementById('plot')).lo === 1")
-    assert served.page.js("ThermoChart.of(document.getElementById('plot')).hi") == 2
+def test_a_zoom_in_the_address_is_shown_again(read: Served) -> None:
+    read.go("/test?campaign=small&test=heat1&from=3600&to=7200")
+    read.page.wait("ThermoChart.of(document.getElementById('plot')).lo === 1")
+    assert read.page.js("ThermoChart.of(document.getElementById('plot')).hi") == 2
 
 
 def test_a_jump_test_is_drawn_in_the_form(served: Served) -> None:
@@ -254,45 +295,45 @@ def test_a_jump_test_is_drawn_in_the_form(served: Served) -> None:
     assert served.page.complaints() == []
 
 
-def test_a_dragged_stretch_is_told(served: Served) -> None:
-    served.go("/test?campaign=small&test=heat1")
-    served.page.wait("document.querySelector('#plot canvas')")
-    served.press("#choose")
-    x, y, width = served.page.js(
+def test_a_dragged_stretch_is_told(read: Served) -> None:
+    read.go("/test?campaign=small&test=heat1")
+    read.page.wait("document.querySelector('#plot canvas')")
+    read.press("#choose")
+    x, y, width = read.page.js(
         "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
         "return [r.left, r.top + 20, r.width]; })()"
     )
-    served.page.drag(x + 0.2 * width, x + 0.4 * width, y)
-    served.page.wait("document.querySelector('#stretch')")
-    told = served.page.js("document.querySelector('#stretch').textContent")
+    read.page.drag(x + 0.2 * width, x + 0.4 * width, y)
+    read.page.wait("document.querySelector('#stretch')")
+    told = read.page.js("document.querySelector('#stretch').textContent")
     assert "samples that count" in told
     assert "window: [" in told
-    assert served.page.complaints() == []
+    assert read.page.complaints() == []
 
 
-def test_searching_narrows_the_list_without_a_reload(served: Served) -> None:
-    served.page.js("window.kept = 1; document.getElementById('find').focus()")
+def test_searching_narrows_the_list_without_a_reload(read: Served) -> None:
+    read.page.js("window.kept = 1; document.getElementById('find').focus()")
     for letter in "day1":
-        served.page.key(letter)
-    served.page.wait("document.querySelectorAll('table.tests tbody tr').length === 1")
-    assert served.page.js("window.kept") == 1
-    assert served.page.js("location.search.includes('find=day1')")
+        read.page.key(letter)
+    read.page.wait("document.querySelectorAll('table.tests tbody tr').length === 1")
+    assert read.page.js("window.kept") == 1
+    assert read.page.js("location.search.includes('find=day1')")
 
 
-def test_a_page_of_another_origin_gets_nothing(served: Served, chromium: Chromium) -> None:
+def test_a_page_of_another_origin_gets_nothing(read: Served, chromium: Chromium) -> None:
     stranger = chromium.open("data:text/html,<title>elsewhere</title>")
     try:
         assert (
-            stranger.js(f"fetch('{served.origin}/', {{credentials: 'include'}}).then(r => 'read', () => 'refused')")
+            stranger.js(f"fetch('{read.origin}/', {{credentials: 'include'}}).then(r => 'read', () => 'refused')")
             == "refused"
         )
         assert stranger.js(
-            f"fetch('{served.origin}/task/add', {{method: 'POST', credentials: 'include', mode: 'no-cors', "
+            f"fetch('{read.origin}/task/add', {{method: 'POST', credentials: 'include', mode: 'no-cors', "
             "body: 'model=baseline&candidate=1'}).then(r => r.type, () => 'refused')"
         ) in ("opaque", "refused")
     finally:
         stranger.close()
-    assert len(model_rows(Store(served.lab / "thermodata.store"))) == 1
+    assert len(model_rows(Store(read.lab / "thermodata.store"))) == 1
 
 
 def test_the_server_killed_during_an_add_leaves_the_store_whole(served: Served) -> None:
@@ -360,9 +401,9 @@ def counted(served: Served, delay_ms: int) -> None:
     served.page.js(COUNTED.replace("DELAY", str(delay_ms)))
 
 
-def test_a_zoom_is_asked_for_at_once_and_the_newest_wins(served: Served) -> None:
-    counted(served, 150)
-    page = served.page
+def test_a_zoom_is_asked_for_at_once_and_the_newest_wins(read: Served) -> None:
+    counted(read, 150)
+    page = read.page
     assert page.js("(chart.zoom(1, 2), asked.length)") == 1  # no waiting time before the first
     page.js("for (let i = 1; i <= 20; i++) chart.zoom(1 + i / 50, 3 + i / 50)")
     page.wait("document.getElementById('plot').dataset.refined && atOnce === 0")
@@ -375,9 +416,9 @@ def test_a_zoom_is_asked_for_at_once_and_the_newest_wins(served: Served) -> None
     assert page.complaints() == []
 
 
-def test_keys_zoom_without_waiting_too(served: Served) -> None:
-    counted(served, 100)
-    page = served.page
+def test_keys_zoom_without_waiting_too(read: Served) -> None:
+    counted(read, 100)
+    page = read.page
     page.js("document.getElementById('plot').focus()")
     for key in "+++.,":
         page.key(key)
@@ -389,9 +430,9 @@ def test_keys_zoom_without_waiting_too(served: Served) -> None:
     page.wait("drawn()[0] >= chart.lo - 0.02 && drawn()[1] <= chart.hi + 0.02", 30)
 
 
-def test_what_was_not_loaded_yet_is_never_blank(served: Served) -> None:
-    counted(served, 300)
-    page = served.page
+def test_what_was_not_loaded_yet_is_never_blank(read: Served) -> None:
+    counted(read, 300)
+    page = read.page
     page.js("chart.zoom(2, 2.5)")
     page.wait("drawn()[0] > 1.9", 30)
     low, high = page.js("(chart.whole(), drawn())")  # before any answer
@@ -400,9 +441,9 @@ def test_what_was_not_loaded_yet_is_never_blank(served: Served) -> None:
     page.wait("asked.length === 2 && atOnce === 0")
 
 
-def test_a_zoom_that_failed_is_asked_again_by_the_next(served: Served) -> None:
-    counted(served, 0)
-    page = served.page
+def test_a_zoom_that_failed_is_asked_again_by_the_next(read: Served) -> None:
+    counted(read, 0)
+    page = read.page
     page.js("window.kept = window.fetch; window.fetch = () => Promise.reject(new TypeError('gone'))")
     page.js("chart.zoom(1, 2)")
     page.js("new Promise(done => setTimeout(done, 50))")
