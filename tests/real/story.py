@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import json
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -45,12 +45,31 @@ class Round:
     better: dict[str, Any] | None
 
 
+def row(recording: str, number: int, one: Round) -> str:
+    """A round as a line of a table: recording, response, round, verdict, claimed, left-out, locked, not told from."""
+    found, best = one.diagnosis, one.claimed
+    cells = [recording, found["response"], str(number), found["verdict"]]
+    if best is None:
+        cells += ["-", "" if found["rmse_um"] is None else f"{found['rmse_um']:.2f}", "", ""]
+    else:
+        cells += [
+            best["id"],
+            f"{best['rmse_um_before']:.2f} -> {best['rmse_um_after']:.2f}",
+            f"{best['locked_rmse_um_before']:.2f} -> {best['locked_rmse_um_after']:.2f}",
+            ", ".join(best["equivalent"]),
+        ]
+    return "| " + " | ".join(cells) + " |"
+
+
 class Bench:
     """A recording in a store of its own."""
 
-    def __init__(self, recording: Recording, folder: Path) -> None:
+    def __init__(self, recording: Recording, folder: Path, edit: Callable[[Path], None] | None = None) -> None:
+        """edit: what to do to the campaign file before it is ingested."""
         self.folder = folder / recording.folder
         shutil.copytree(HERE / recording.folder, self.folder)
+        if edit:
+            edit(self.folder / "campaign.yaml")
         shutil.copy(recording.file, self.folder)
         self.ingested = self.ask("ingest", self.folder / "campaign.yaml")
 

@@ -10,6 +10,8 @@ from typing import Any
 
 import pytest
 
+PAGE = Path(__file__).parents[2] / "docs" / "real_spindle.md"
+
 
 def _story() -> ModuleType:
     # shared with the script beside it, which no package holds
@@ -69,6 +71,17 @@ def holds(rounds: list[Any]) -> bool:
     )
 
 
+def on_the_page(rounds: list[Any]) -> bool:
+    """Whether the page of the spindle has the locked errors of every claim."""
+    page = PAGE.read_text("utf-8")
+    return all(
+        f"| {r.diagnosis['response']} | {c['locked_rmse_um_before']:.2f} -> {c['locked_rmse_um_after']:.2f} um |"
+        in page
+        for r in rounds
+        if (c := r.claimed)
+    )
+
+
 def test_the_spindle_recording_is_read_whole(spindle: Any) -> None:
     assert spindle.ingested["losses"] == []
     rows = spindle.ask(
@@ -95,6 +108,7 @@ def test_speed_alone_fails_on_ch3_and_t4_is_found(spindle: Any, capsys: pytest.C
     assert first.claimed["rmse_um_after"] < 0.7 * first.claimed["rmse_um_before"]
     assert first.claimed["locked_rmse_um_after"] < 0.85 * first.claimed["locked_rmse_um_before"]
     assert holds(rounds)
+    assert on_the_page(rounds)
     # t4 takes the locked hours from 14 to 11 um only: who knows that does not say that nothing is missing
     last = rounds[-1].diagnosis
     assert last["verdict"] == "unknown"
@@ -110,6 +124,7 @@ def test_no_claim_without_a_falling_error_on_the_locked_part(
     with capsys.disabled():
         print("\n" + told(rounds))
     assert holds(rounds)
+    assert on_the_page(rounds)
     for r in rounds:
         assert (r.diagnosis["verdict"] == "effect") == (r.claimed is not None)
 
