@@ -6,8 +6,7 @@
 Each campaign is made in a folder of its own, and `ingest`, `fit` and `diagnose` run in this process at 100 columns.
 What was printed stands in the page as it came, but for lines that are wider: these are folded at their spaces, as a
 terminal folds them somewhere. `confirm` then asks the locked tests for the right name, which the table tells beside the
-answer. FOLDER keeps what was printed, so that a run goes on where it was ended. All ten take about a quarter of an
-hour.
+answer. FOLDER keeps what was printed, so that a run goes on where it was ended. All ten take a quarter of an hour.
 """
 
 from __future__ import annotations
@@ -30,6 +29,9 @@ from typing import Any
 
 from measure import table
 from outside import marks
+
+from thermodata.report.verdict.verdict import probability
+from thermodata.report.words.numbers import number
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "verdicts.md"
@@ -180,14 +182,14 @@ def run(*words: object, store: str, aloud: bool = True) -> str:
     return out.getvalue()
 
 
-def answer(number: int, kept: Path | None) -> Answer:
+def answer(which: int, kept: Path | None) -> Answer:
     """From the folder that keeps them, else made now."""
-    file = None if kept is None else kept / f"{number}.json"
+    file = None if kept is None else kept / f"{which}.json"
     if file is not None and file.exists():
         said = json.loads(file.read_text("utf-8"))
         return Answer(**{**said, "truth": Truth(**said["truth"])})
     with tempfile.TemporaryDirectory() as folder:
-        found = asked(CASES[number], Path(folder))
+        found = asked(CASES[which], Path(folder))
     if file is not None:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(asdict(found)), "utf-8")
@@ -229,11 +231,11 @@ def without_ids(page: str) -> str:
 HEAD = ("answer", "verdict", "hidden", "said", "that is", "locked, before and with it [um]", "with the right name [um]")
 
 
-def row(number: int, a: Answer) -> list[str]:
+def row(which: int, a: Answer) -> list[str]:
     claims = [c for c in a.said["candidates"] if c["claimed"]]
     locked = [claims[0]["locked_rmse_um_before"], claims[0]["locked_rmse_um_after"]] if claims else None
     return [
-        str(number),
+        str(which),
         a.said["verdict"].replace("_", " "),
         hidden(a.truth),
         named(a.said),
@@ -252,13 +254,10 @@ def hidden(truth: Truth) -> str:
 
 def named(said: Mapping[str, Any]) -> str:
     """What an answer names: its claims, else its refinements, else the likeliest; and the faults of the logs."""
-    from thermodata.report.verdict.verdict import probability
-
     candidates: list[dict[str, Any]] = said["candidates"]
     parts = [f"`{c['id']}` {probability(c['probability'])}" for c in candidates if c["claimed"]]
-    refined = [f"`{c['id']}`" for c in candidates if c["refinement"]]
     if not parts and said["verdict"] == "refine":
-        parts = [f"refined by {' and '.join(refined)}"]
+        parts = ["refined by " + " and ".join(f"`{c['id']}`" for c in candidates if c["refinement"])]
     likeliest = max((c for c in candidates if c["probability"]), key=lambda c: c["probability"], default=None)
     if not parts and likeliest:
         parts = [f"none; likeliest `{likeliest['id']}` {probability(likeliest['probability'])}"]
@@ -275,8 +274,6 @@ def outcome(truth: Truth, claims: Sequence[Mapping[str, Any]]) -> str:
 
 
 def from_to(um: Iterable[float | None] | None) -> str:
-    from thermodata.report.words.numbers import number
-
     return "–" if um is None else " -> ".join(map(number, um))
 
 
