@@ -89,14 +89,27 @@ def write_campaign(folder: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def campaign(once: Callable[[str, Callable[[Path], object]], Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A campaign that is ingested into `thermodata.store` beside it, with its baseline fitted."""
+def made_campaign(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+    """A campaign that is ingested into `thermodata.store` beside it, with its baseline fitted; read only."""
 
     def make(folder: Path) -> None:
         path = write_campaign(folder)
         assert main(["--store", str(folder / "thermodata.store"), "ingest", str(path), "--json"]) == 0
         assert main(["--store", str(folder / "thermodata.store"), "fit", str(folder / "baseline.yaml"), "--json"]) == 0
 
+    return once("small", make)
+
+
+@pytest.fixture(scope="session")
+def campaign(made_campaign: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy for all tests of a process."""
     folder = tmp_path_factory.mktemp("small") / "lab"
-    shutil.copytree(once("small", make), folder)
+    shutil.copytree(made_campaign, folder)
     return folder
+
+
+@pytest.fixture
+def own(made_campaign: Path, tmp_path: Path) -> Path:
+    """A copy for one test."""
+    shutil.copytree(made_campaign, tmp_path / "own")
+    return tmp_path / "own"

@@ -300,20 +300,18 @@ def test_a_snapshot_needs_nothing_beside_it(ask: Say, tmp_path: Path) -> None:
     assert (tmp_path / "s.duckdb").stat().st_size > 100_000
 
 
-def test_forget_then_gc(say: Say, tmp_path: Path) -> None:
-    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
-    assert say("--store", store, "ingest", path).code == 0
+def test_forget_then_gc(say: Say, own: Path) -> None:
+    store = own / "thermodata.store"
     assert say("--store", store, "forget", "small", "day2", "--json").code == 0
     assert {r["test"] for r in json.loads(say("--store", store, "tests", "--json").out)} == set(TESTS) - {"day2"}
     assert json.loads(say("--store", store, "gc", "--grace", "0 s", "--json").out)["removed"] > 0
     assert say("--store", store, "forget", "small", "day2").code == 2
-    assert (tmp_path / "c" / "raw" / "day2.csv").exists()
+    assert (own / "raw" / "day2.csv").exists()
 
 
-def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
-    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
-    assert say("--store", store, "ingest", path).code == 0
-    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+def test_diagnose_add_by_rank_and_report(say: Say, own: Path, tmp_path: Path) -> None:
+    store = own / "thermodata.store"
+    base = json.loads(say("--store", store, "history", "baseline", "--json").out)[0]["model"]
     found = json.loads(say("--store", store, "diagnose", base, "--json").out)
     assert set(found) == {
         "model",
@@ -414,10 +412,9 @@ def rmse(scores: list[dict[str, Any]]) -> float:
     return float(np.sqrt(np.average([s["rmse_um"] ** 2 for s in scores], weights=[s["n"] for s in scores])))
 
 
-def test_answers_to_a_model_of_other_data_say_so(say: Say, tmp_path: Path) -> None:
-    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
-    assert say("--store", store, "ingest", path).code == 0
-    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+def test_answers_to_a_model_of_other_data_say_so(say: Say, own: Path) -> None:
+    path, store = own / "campaign.yaml", own / "thermodata.store"
+    base = json.loads(say("--store", store, "history", "baseline", "--json").out)[0]["model"]
     path.write_text(path.read_text().replace("kind: mixed", "kind: spectrum"))
     assert say("--store", store, "ingest", path).code == 0
     for words in (["diagnose", base], ["confirm", base, "lag:T_hall"], ["add", base, "lag:T_hall", "--plain"]):
@@ -425,10 +422,9 @@ def test_answers_to_a_model_of_other_data_say_so(say: Say, tmp_path: Path) -> No
         assert str(found["stale"]).startswith(f"stale: the data of baseline {base} changed"), words
 
 
-def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_counted(say: Say, tmp_path: Path) -> None:
-    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
-    assert say("--store", store, "ingest", path).code == 0
-    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_counted(say: Say, own: Path) -> None:
+    store = own / "thermodata.store"
+    base = json.loads(say("--store", store, "history", "baseline", "--json").out)[0]["model"]
 
     def looks() -> int:
         query = "select count(*) as n from locked_look where test = 'day2'"

@@ -12,22 +12,20 @@ from thermodata.cli import main
 from thermodata.web.app import application
 from thermodata.web.desk import Desk, desk_of
 
+from ..cli.conftest import made_campaign as made_campaign
 from ..cli.conftest import say as say
-from ..cli.conftest import write_campaign
 from .client import Client, Header
 
 PORT = 8423
 
 
 @pytest.fixture(scope="session")
-def made_lab(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
+def made_lab(once: Callable[[str, Callable[[Path], object]], Path], made_campaign: Path) -> Path:
     """Four tests of 6 h, a baseline that lacks the nut's growth, and its diagnosis; read only."""
 
     def make(folder: Path) -> None:
-        path = write_campaign(folder)
-        store = str(folder / "thermodata.store")
-        for words in (["ingest", str(path)], ["fit", str(folder / "baseline.yaml")], ["diagnose", "baseline"]):
-            assert main(["--store", store, *words, "--json"]) == 0
+        shutil.copytree(made_campaign, folder, dirs_exist_ok=True)
+        assert main(["--store", str(folder / "thermodata.store"), "diagnose", "baseline", "--json"]) == 0
 
     return once("web", make)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,12 +20,13 @@ MODEL = "a" * 12
 RESPONSES = ("dZ", "T_nut")
 
 
-@pytest.fixture
-def client(tmp_path: Path) -> Client:
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
     """One model of a displacement, which it misses by 30 um, and of a temperature, which it misses by 0.2 K."""
     import pyarrow as pa
 
-    t_s, b = np.arange(60) * 60.0, Builder(tmp_path / "store")
+    folder = tmp_path_factory.mktemp("models") / "store"
+    t_s, b = np.arange(60) * 60.0, Builder(folder)
     course = np.sin(t_s / 900)
     b.test("c", "a", role="calibration", kind="spindle")
     b.channel("c", "a", "dZ", quantity="displacement", unit="um")

@@ -29,12 +29,13 @@ def identity(number: int) -> str:
     return f"{number:x}".ljust(12, "0")
 
 
-@pytest.fixture
-def client(tmp_path: Path) -> Client:
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
     """15 fits of one edited file on a temperature; the last predicts one of the two tests only."""
     import pyarrow as pa
 
-    t_s, b = np.arange(60) * 60.0, Builder(tmp_path / "store")
+    folder = tmp_path_factory.mktemp("models") / "store"
+    t_s, b = np.arange(60) * 60.0, Builder(folder)
     for test in ("a", "b"):
         b.test("c", test, role="calibration", kind="spindle")
         b.channel("c", test, "T_nut", quantity="temperature", unit="degC")
