@@ -212,13 +212,20 @@ def more_lags(rows: Rows) -> None:
     """Two lags a driver, searched; and of ch3 another sensor in place of t4, and a third driver beside speed and t4."""
     cut = int(np.searchsorted(rows.t_h, CUT_H))
     told = ("trained", "fitted level", "own mean", "first 10 min")
-    head("probe", "drivers", "time constants [min]", *told)
+    head("probe", "drivers", "time constants [min]", "gains [um/rpm, um/K]", *told)
     cases: list[tuple[int, tuple[int, ...], int]] = [(ch, drivers, 2) for ch in PROBES for drivers in ((), (4,))]
     cases += [(3, (k,), 1) for k in (11, 12, 14)] + [(3, (4, k), 1) for k in (7, 9, 11, 14)]
     for ch, sensors, lags in cases:
         fit = search(rows.ch[ch], [rows.speed, *(rows.t[k] for k in sensors)], [slice(0, cut)], lags)
         name = ", ".join(["speed", *(f"t{k}" for k in sensors)]) + (", two lags each" if lags > 1 else "")
-        row(f"ch{ch}", name, taus(fit), rms(fit.left[:cut]), *list(scores(fit.left, cut).values())[:3])
+        row(
+            f"ch{ch}",
+            name,
+            taus(fit),
+            ", ".join(f"{g:.3g}" for g in fit.gains),
+            rms(fit.left[:cut]),
+            *list(scores(fit.left, cut).values())[:3],
+        )
 
 
 def swing(rows: Rows) -> None:
