@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -38,12 +38,13 @@ _LONGEST = 60  # letters of a line of the head in a message
 @dataclass(frozen=True, slots=True)
 class Begin:
     """ns: the start since 1970, or the midnight before it where the rows hold times of day; local: in the time of the
-    place; of_day: whether they do; text: the lines that say so."""
+    place; of_day: whether they do; text: the lines that say so; order: the declared one of day and month."""
 
     ns: int
     local: bool
     of_day: bool
     text: str
+    order: str | None = None
 
     def utc(self, since_ns: Int1D, timezone: str | None) -> Int1D:
         """UTC of times that count from the start [ns], shape (n,); NAT stays."""
@@ -133,7 +134,18 @@ def find_begin(
     if said.either and declared is not None:
         raise _which_order(said, where)
     # who tells no order may know the start otherwise: `init` asks, and what was read before still is
-    return (None, _either(said)) if said.either else (begin, None)
+    return (None, _either(said)) if said.either else (begin and replace(begin, order=order), None)
+
+
+def begun_anew(lines: Sequence[Sequence[str]], begin: Begin | None) -> Begin | None:
+    """What the rows behind a second head count from, where a logger was started again and its file went on. lines: of
+    that head; begin: of the rows before it. None where they say no start for sure, or the rows tell times of day."""
+    if begin is None or begin.of_day:
+        return None
+    said = head_start(lines, begin.order)
+    if said is None or said.clock_ns is None or said.several or said.either or said.says < Says.RECORDED:
+        return None
+    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, begin.order)
 
 
 def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
