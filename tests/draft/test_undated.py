@@ -56,7 +56,9 @@ def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> Non
     [
         ("Start time: 2026-06-01 13:07:00", None, {}),
         ("Start time: 06/01/2026 13:07:00", "start: dmy or mdy?", {"time": {"start": "unknown"}}),
+        ("Start (UTC): 2026-06-01 13:07:00", None, {}),
         ("Exported: 2026-06-02 09:00:00", "start: head or none?", {"time": {"start": "unknown"}}),
+        ("Start: 2026-06-01 13:07:00 CST", "when did it begin? the head says", {"time": {"start": "unknown"}}),
     ],
 )
 def test_a_start_above_the_rows_is_taken_or_asked(
@@ -69,7 +71,9 @@ def test_a_start_above_the_rows_is_taken_or_asked(
     assert [q for q in source.questions if "start:" in q] == [
         q for q in source.questions if q.startswith(question or "-")
     ]
-    assert any("did it begin" in q or "timezone?" in q for q in source.questions) == ("Start" in line)
+    assert any("did it begin" in q or "timezone?" in q for q in source.questions) == (
+        "Start" in line and "UTC" not in line
+    )
 
 
 @pytest.mark.parametrize(("day", "hint"), [("2026-06-01", "mdy"), ("2026-01-06", "dmy"), ("2026-09-09", "")])

@@ -67,3 +67,19 @@ def test_names_that_repeat_and_are_no_statistics_are_numbered_as_before(tmp_path
     head = ["Device,GX,GX,GY,GY", "x,,,,", "Time [s],front,front,rear,rear"]
     path.write_text("\n".join([*head, *(f"{i},{20 + i}.5,21.5,22.5,23.5" for i in range(40)), ""]))
     assert list(read(path)[0]) == ["front", "front#2", "rear", "rear#2"]
+
+
+@pytest.mark.parametrize("line", ["%% columns:", "# data columns", "% Spalten :", "Messwerte der Spalten:", ""])
+def test_a_line_that_announces_the_names_is_no_head_of_groups(tmp_path: Path, line: str) -> None:
+    path = tmp_path / "drift.txt"
+    rows = [f"   {20 * i}.0   0.{i % 9}00   0.{i % 7}10   26.{i:02d}" for i in range(40)]
+    path.write_text("\n".join(["%% start: 2026-05-06 08:00:00", line, "t[s] dX[um] dY[um] Tair[C]", *rows, ""]))
+    assert read(path)[0] == {"dX[um]": "um", "dY[um]": "um", "Tair[C]": "C"}
+    assert not any(p for s in Reader().describe(path, Source()).signals for p in s.properties)
+
+
+def test_heads_behind_the_mark_of_a_comment_stay_heads(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    rows = [f"{20 * i}.0;2{i % 9}.5;21.{i % 7};26.{i:02d};22.5" for i in range(40)]
+    path.write_text("\n".join(["#;Spindle;;Table;", "t [s];T1 [C];T2 [C];T1 [C];T2 [C]", *rows, ""]))
+    assert sorted(read(path)[0]) == ["Spindle/T1 [C]", "Spindle/T2 [C]", "Table/T1 [C]", "Table/T2 [C]"]

@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.preamble.head_start import head_start
+from thermodata.reader.text.preamble.head_start import head_start, unread_start
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
 NUMBERS = ["Zeit [s];T1 [°C];T2 [°C]", *(f"{60 * i}.0;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
@@ -59,6 +59,88 @@ def test_rows_count_from_the_start_above_them(tmp_path: Path, head: list[str], r
     clock, start, notes, minutes = read(tmp_path, head, rows)
     assert (clock, start, minutes) == ("absolute", SEVEN, list(range(40)))
     assert any("count from the start" in n for n in notes)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Start (UTC): 2026-03-02 07:00:00",
+        "Start [UTC];2026-03-02 07:00:00",
+        "StartTimeUTC: 2026-03-02 07:00:00",
+        "start_utc = 2026-03-02T07:00:00",
+        "Start (MEZ): 02.03.2026 08:00",
+        "Start (UTC+01:00): 02.03.2026 08:00",
+        "Start: 2026-03-02 08:00:00 [Europe/Prague]",
+        "Start: 02.03.2026 07:00:00 Uhr",
+        "Start: 02.03.2026 07:00:00 (local)",
+        "%% start: 02.03.2026 07:00:00 local time",
+        "Start: 02.03.2026 07:00 Ortszeit",
+        "Messbeginn: Mo, 02.03.2026 07:00 h",
+        "Start: 2. März 2026, 7.00 Uhr",
+        "Start am 02.03.2026 um 7.00 Uhr",
+        "Messung gestartet am Montag, 2. Mrz. 2026 um 07:00 Uhr",
+        "Début : le 2 mars 2026 à 07h00",
+        "Inizio misura: lunedì 2 marzo 2026 alle ore 7.00",
+        "Inicio: 2 de marzo de 2026 a las 07:00",
+        "Začátek měření: pondělí 2. března 2026 v 7:00",
+        "Początek pomiaru: 2 marca 2026, godz. 7:00",
+        "Test started on Monday, March 2nd, 2026 at 7:00 AM",
+        "開始日時：2026年3月2日(月) 7時00分",
+        "开始时间: 2026-03-02 07:00:00 (当地时间)",
+    ],
+)
+def test_a_start_is_read_as_people_write_it(tmp_path: Path, line: str) -> None:
+    clock, start, notes, _ = read(tmp_path, [line], NUMBERS)
+    assert (clock, start) == ("absolute", SEVEN)
+    assert any("count from the start" in n for n in notes)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Start: 2026-03-02 07:00:00 CST",
+        "Start: Montag früh, 02.03.2026",
+        "Messbeginn: 2.3. 07:00",
+        "Start: 02.03.2026 07:00 bis 09:00",
+        "Test date: 02.03.2026 shift 2",
+    ],
+)
+def test_a_start_that_is_not_read_is_told(tmp_path: Path, line: str) -> None:
+    clock, _, notes, _ = read(tmp_path, [line], NUMBERS)
+    assert clock == "relative"
+    assert any("no date with a time of day is read" in n and "{start: none}" in n for n in notes)
+    assert not any("is read" in n for n in read(tmp_path, [line], NUMBERS, "none")[2])
+    with pytest.raises(FormatError, match="can't be taken"):
+        read(tmp_path, [line], NUMBERS, "head")
+
+
+def test_a_start_of_nobody_knows_what_is_asked_and_taken_where_it_is_declared(tmp_path: Path) -> None:
+    head = ["Start Messung WZM3: 02.03.2026 07:00:00"]
+    assert any("not taken for the start of the rows" in n for n in read(tmp_path, head, NUMBERS)[2])
+    assert read(tmp_path, head, NUMBERS, "head")[1] == SEVEN
+
+
+def test_one_start_in_utc_and_in_the_time_of_the_place_is_one(tmp_path: Path) -> None:
+    head = ["Start: 02.03.2026 08:00:00", "Start (UTC): 2026-03-02 07:00:00"]
+    assert read(tmp_path, head, NUMBERS)[:2] == ("absolute", SEVEN)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Start speed: 6000 1/min",
+        "Start channel: 3",
+        "Trigger: 3.5 V",
+        "Record: v5.3.1",
+        "Log: 192.168.0.10",
+        "Recording time: 8 h",
+        "Calibration start: 02.03.2026 07:00",
+        "Start/Stop: 02.03.2026 07:00",
+    ],
+)
+def test_lines_of_other_things_are_no_start_and_not_told(line: str) -> None:
+    assert head_start([[line]]) is None
+    assert unread_start([[line]]) is None
 
 
 @pytest.mark.parametrize("head", [["Datum: 02.03.2026"], ["Start: 02.03.2026 06:58:31"], ["Date;2026-03-02"]])
@@ -127,7 +209,9 @@ def test_what_says_no_start_is_none(tmp_path: Path, head: list[str]) -> None:
     clock, _, notes, _ = read(tmp_path, head, NUMBERS, "head")
     assert clock == "relative"
     assert any("no start stands above the rows" in n for n in notes)
-    assert read(tmp_path, head, NUMBERS, "dmy")[0] == "relative", "an order answers only what is asked"
+    clock, _, notes, _ = read(tmp_path, head, NUMBERS, "dmy")
+    assert clock == "relative", "an order answers only what is asked"
+    assert any("though time.start is 'dmy'" in n for n in notes)
 
 
 @pytest.mark.parametrize("head", [["Date: 02.03.2026"], ["Start: 2026-03-02 07:00:00", "Trigger: 2026-03-02 07:05:00"]])
@@ -199,3 +283,23 @@ def test_a_start_with_its_offset_in_brackets_counts(zone: str) -> None:
 def test_what_stands_behind_a_start_and_is_no_offset_does_not(zone: str) -> None:
     said = head_start([["Start time:", f"2026-03-02 08:00:00 {zone}"]])
     assert said is None or not said.zoned
+
+
+AGAIN = [NUMBERS[0], *(f"{60 * i}.0;30.{i % 9};31.0" for i in range(20))]
+
+
+@pytest.mark.parametrize("again", ["Messbeginn: Mo, 02.03.2026 08:00 Uhr", "Messbeginn;02.03.2026 08:00:00;"])
+def test_a_logger_that_was_started_again_counts_from_its_second_start(tmp_path: Path, again: str) -> None:
+    rows = [*NUMBERS, "Logger XY", again, *AGAIN]
+    clock, start, notes, minutes = read(tmp_path, ["Logger XY", "Messbeginn: 02.03.2026 07:00:00"], rows)
+    assert (clock, start, minutes) == ("absolute", SEVEN, [*range(40), *range(60, 80)])
+    assert any("count anew from the start in a further head: 'Messbeginn: " in n for n in notes)
+    elapsed = [*ELAPSED, again, ELAPSED[0], *ELAPSED[1:21]]
+    assert read(tmp_path, ["Messbeginn: 02.03.2026 07:00:00"], elapsed)[3] == [*range(40), *range(60, 80)]
+
+
+def test_a_start_between_rows_that_count_on_changes_nothing(tmp_path: Path) -> None:
+    head, rows = ["Start: 2026-03-02 07:00:00"], [*NUMBERS[:21], "Start: 2026-03-02 09:00:00", *NUMBERS[21:]]
+    _, start, notes, minutes = read(tmp_path, head, rows)
+    assert (start, minutes) == (SEVEN, list(range(40)))
+    assert not any("anew" in n for n in notes)

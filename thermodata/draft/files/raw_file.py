@@ -19,7 +19,7 @@ from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
 from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
-from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
+from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN, UNREAD
 from thermodata.reader.text.times.unpadded import UNPADDED
 from thermodata.reader.times.open_questions import ASK, UNKNOWN, YEAR
 from thermodata.reader.times.zone import NO_ZONE
@@ -203,6 +203,7 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
+        asked += [Asked(_asked_unread(n), _START) for n in recording.notes if UNREAD in n]
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
     left = _without_times(recording, {name for a in asked for name in a.times})
     return replace(file, recording=left, delivered=recording, asked=tuple(asked), table=table or None)
@@ -223,6 +224,15 @@ def _asked_order(note: str) -> str:
 def _asked_start(note: str) -> str:
     """The question of a note on a date above rows that may have begun then."""
     return f"start: head or none? {note.split(NOT_TAKEN)[0].rstrip(', ')}: did its rows begin then?"
+
+
+def _asked_unread(note: str) -> str:
+    """The question of a note on a start that can't be read."""
+    said = note.split(UNREAD)[0].rstrip(", ")
+    return (
+        f"when did it begin? {said}, which can't be read: write it there as 2026-03-02 08:00:00; or start: none, and "
+        "clock: {offset: 0 s} if it begins with its test, or the start of each test"
+    )
 
 
 def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:

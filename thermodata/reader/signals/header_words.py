@@ -64,6 +64,23 @@ LABEL_WORDS = (
 )
 VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")
 # columns that hold the unit of the value beside them
-UNIT_WORDS = ("unit", "units", "einheit", "jednotka", "engineeringunits", "unité", "unità", "unidad")
+UNIT_WORDS = (
+    *("unit", "units", "einheit", "jednotka", "engineeringunits", "unité", "unità", "unidad", "engunits", "engunit"),
+    *("engineeringunit", "euunits", "unitofmeasure", "unitsofmeasure", "unitofmeasurement", "unitsofmeasurement"),
+    *("measurementunit", "messeinheit", "maßeinheit", "masseinheit", "unitédemesure", "unitàdimisura"),
+    *(
+        "unidaddemedida",
+        "unidade",
+        "eenheid",
+        "enhet",
+        "enhed",
+        "jednostka",
+        "mértékegység",
+        "单位",
+        "單位",
+        "単位",
+        "단위",
+    ),
+)
 # which they are called for short; other things are, too
 UNIT_SHORT = ("u", "e", "j", "eh", "einh", "jedn", "uom", "um", "eu", "egu")

@@ -123,6 +123,7 @@ def describe(table: Table, source: Source) -> Recording:
             of_day = reader.clocks[0].days.first_ns
     if table.begin is not None:
         notes.append(table.begin.note())
+        notes += _anew_notes(table, source)
     else:
         notes += _of_day_notes(table, source)
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
@@ -142,6 +143,18 @@ def describe(table: Table, source: Source) -> Recording:
         tuple(dict.fromkeys(notes)),
         of_day,
     )
+
+
+def _anew_notes(table: Table, source: Source) -> list[str]:
+    """What is told of further heads with a start of their own, as far as the file was sampled."""
+    reader = RowReader(table, source, 1)
+    lines = (table.sample.head[table.layout.first :], table.sample.rest)
+    starts = {}
+    for some in lines:
+        for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, False)):
+            pass
+        starts.update({begin.text: None for begin in reader.anew})
+    return [f"times count anew from the start in a further head: '{text}'" for text in starts]
 
 
 def _of_day_notes(table: Table, source: Source) -> list[str]:

@@ -23,7 +23,7 @@ _NAMES = tuple(
     for pattern in (
         "status(?:name|text)",
         "opc(?:da|ua)?(?:quality|status)(?:code)?|(?:quality|status)(?:opc|detail|details)",
-        "(?:quality|qualit(?:ä|ae?)t)(?:code|name|text|flags?)?",
+        "(?:quality|qualit(?:ä|ae?)t|qualité|qualità|calidad|质量码|品質)(?:code|name|text|flags?)?",
         "statuscode",
         "status",
         "valid(?:ity)?",

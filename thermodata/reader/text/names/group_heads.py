@@ -20,10 +20,18 @@ def is_label(cell: str) -> bool:
     return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
 
 
+def is_sentence(row: Sequence[str]) -> bool:
+    """Whether a row says in words, each in a cell where blanks part these, what stands below it: '%% columns:', 'data
+    columns :'. They follow each other from the first cell on, behind the mark of a comment, or up to a colon."""
+    said = list(row[: max((k + 1 for k, c in enumerate(row) if c), default=0)])
+    marked = bool(said) and not any(map(str.isalnum, said[0]))
+    return len(said) > 1 and all(said) and len(said) < len(row) and (marked or said[-1].endswith(":"))
+
+
 def heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
     """The head of the group that each name stands in: several heads, each written once over the first of its columns,
     and words, not numbers; a single one is a title of the sheet."""
-    heads = [c for c in above if c]
+    heads = [] if is_sentence(above) else [c for c in above if c]
     merged = len(heads) < len(names) and any(n and not a for a, n in zip(above, names, strict=True))
     if len(heads) < 2 or not merged or any(is_number(c) or is_stamp(c) for c in heads) or mostly_units(above):
         return [""] * len(names)
@@ -71,6 +79,8 @@ def apart_by_comments(names: list[str], below: Sequence[Sequence[str]]) -> list[
 def under(above: list[str], names: list[str]) -> list[str]:
     """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
     tells names apart that repeat, and is the name where there is none below it."""
+    if is_sentence(above):
+        return names
     filled = [n or a for a, n in zip(above, names, strict=True)]
     below = [n for n in names if n]
     if len(set(below)) == len(below):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -13,7 +13,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.time_pattern import TimeFormat
-from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, head_start
+from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, Unread, head_start, unread_start
 from thermodata.reader.text.preamble.head_words import Says
 from thermodata.reader.text.times.date_parts import row_time
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
@@ -23,9 +23,10 @@ from thermodata.reader.times.zone import NAT, local_to_utc_ns
 HEAD, NOT = "head", "none"  # the answers beside ORDERS
 ANSWERS = (*ORDERS, HEAD, NOT)
 NOT_TAKEN = "which is not taken for the start of the rows"
+UNREAD = "in which no date with a time of day is read"
 EITHER = "whose day and month may be either way round"
 _ORDER = "declare table: {time: {start: dmy}}, mdy or ymd; start: none, where the rows do not begin then"
-_NOTHING = "no start stands above the rows, though time.start is 'head': they count from the start of the test"
+_NOTHING = "no start stands above the rows, though time.start is '{}': they count from the start of the test"
 _DATED = "the rows have dates of their own: the declared time.start is not used"
 _HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
 ROWS = 40  # that show how a clock begins
@@ -37,12 +38,13 @@ _LONGEST = 60  # letters of a line of the head in a message
 @dataclass(frozen=True, slots=True)
 class Begin:
     """ns: the start since 1970, or the midnight before it where the rows hold times of day; local: in the time of the
-    place; of_day: whether they do; text: the lines that say so."""
+    place; of_day: whether they do; text: the lines that say so; order: the declared one of day and month."""
 
     ns: int
     local: bool
     of_day: bool
     text: str
+    order: str | None = None
 
     def utc(self, since_ns: Int1D, timezone: str | None) -> Int1D:
         """UTC of times that count from the start [ns], shape (n,); NAT stays."""
@@ -115,26 +117,35 @@ def find_begin(
         raise unanswered("time.start", ", ".join(ANSWERS), where)
     if declared == NOT:
         return None, None
-    said = head_start(lines, declared if declared in ORDERS else None, booted=declared is not None)
-    if said is None and declared is None and (booted := head_start(lines, booted=True)) is not None:
-        return None, None if booted.clock_ns is None else _note(booted)
+    order = declared if declared in ORDERS else None
+    said, unread = head_start(lines, order, booted=declared is not None), unread_start(lines, order)
+    begin = None if said is None else _begin(said, first, sure=declared is None)
+    if begin is None and declared == HEAD and (said is not None or unread is not None):
+        raise _not_taken(said, unread, where)
+    if begin is None and unread is not None and (said is None or unread.says > said.says):
+        return None, _unread(unread)
     if said is None:  # of files that are declared alike only some may have such a line
-        return None, _NOTHING if declared == HEAD else None
-    begin = _begin(said, first, sure=declared is None)
-    if begin is None and declared == HEAD:
-        raise FormatError(
-            "the start above the rows can't be taken, and time.start is 'head'",
-            where=where,
-            expected="one date with a time of day, such as 'Start time: 2026-03-02 08:00:00'",
-            got=f"'{said.text[:_LONGEST]}'" + (", and another start on another line" if said.several else ""),
-            hint="declare start: none, and give each test its start: 2026-03-02 08:00",
-        )
+        if declared is not None:
+            return None, _NOTHING.format(declared)
+        booted = head_start(lines, booted=True)
+        return None, None if booted is None or booted.clock_ns is None else _note(booted)
     if begin is None:
         return None, None if said.clock_ns is None and not first.of_day else _note(said)
     if said.either and declared is not None:
         raise _which_order(said, where)
     # who tells no order may know the start otherwise: `init` asks, and what was read before still is
-    return (None, _either(said)) if said.either else (begin, None)
+    return (None, _either(said)) if said.either else (begin and replace(begin, order=order), None)
+
+
+def begun_anew(lines: Sequence[Sequence[str]], begin: Begin | None) -> Begin | None:
+    """What the rows behind a second head count from, where a logger was started again and its file went on. lines: of
+    that head; begin: of the rows before it. None where they say no start for sure, or the rows tell times of day."""
+    if begin is None or begin.of_day:
+        return None
+    said = head_start(lines, begin.order)
+    if said is None or said.clock_ns is None or said.several or said.either or said.says < Says.RECORDED:
+        return None
+    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, begin.order)
 
 
 def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
@@ -156,6 +167,26 @@ def _are_times_of_day(said: HeadStart, first: FirstTimes) -> bool:
         return not first.near_zero
     behind = first.ns[0] - said.clock_ns
     return -_SECOND <= behind <= _HOUR and not (first.near_zero and said.clock_ns > _HOUR)
+
+
+def _not_taken(said: HeadStart | None, unread: Unread | None, where: str) -> FormatError:
+    text = said.text if said is not None else unread.text if unread is not None else ""
+    other = said is not None and said.several
+    return FormatError(
+        "the start above the rows can't be taken, and time.start is 'head'",
+        where=where,
+        expected="one date with a time of day, such as 'Start time: 2026-03-02 08:00:00'",
+        got=f"'{text[:_LONGEST]}'" + (", and another start on another line" if other else ""),
+        hint="declare start: none, and give each test its start: 2026-03-02 08:00",
+    )
+
+
+def _unread(unread: Unread) -> str:
+    return (
+        f"the head says '{unread.text[:_LONGEST]}', {UNREAD}: they count from the start of the test; write it there as "
+        "2026-03-02 08:00:00, or declare table: {time: {start: none}} and give each test its start, or clock: {offset: "
+        "...}"
+    )
 
 
 def _note(said: HeadStart) -> str:

@@ -5,28 +5,40 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
+
+import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
+from thermodata.reader.text.cells.zone_words import WORDS, offset_ns
 from thermodata.reader.text.preamble.head_words import Says, said_by
+from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, with_month
 from thermodata.reader.text.preamble.zone_places import without_places
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_letters import with_clock
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.times.zone import NAT
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
 _LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\d_][^\d:=]{0,58}?)\s+(\d.*)$"))
 _MARKS = "#%;*'\"/!<> \t"  # by which a line is a comment
+_FULL_WIDTH = str.maketrans("：＝（）", ":=()")
 _MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
 _LONGEST_CELL, _LONGEST_TIME = 200, 100  # letters: what is longer is prose, and a pattern would take its time over it
 _SHORT_YEAR = re.compile(r"\d{2}(?P<mark>[-/.])\d{1,2}(?P=mark)\d{1,2}(?!\d)", re.ASCII)
 _NEAR_NS = 10**9  # by which two lines on one start may differ
+_QUARTER_NS, _FARTHEST_NS = 900 * 10**9, 14 * 3600 * 10**9  # zones differ by whole quarters of an hour
+# a zone in the label of a time: 'Start (UTC)', 'Beginn [MESZ]', 'start_utc', 'StartTimeUTC'
+_ZONED_LABEL = re.compile(
+    r"^(?P<label>[^\d:=]{1,60}?)(?:(?<=[a-z])(?=[A-Z])|[ _\[(]{1,4})"
+    rf"(?P<zone>(?i:UTC|GMT) ?[+-]\d{{1,2}}(?::?\d\d)?|{WORDS}|(?i:UTC|GMT))"
+    r"(?:[\])]|(?!\w))(?P<rest>\s*(?:[:=].*|\d.*)?)$"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +53,14 @@ class Moment:
     clock_ns: int | None = None
     zoned: bool = False
     either: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """A line that names a start or a date, and whose moment can't be read whole. says, text: as of `Moment`."""
+
+    says: Says
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +81,7 @@ class HeadStart:
 def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted: bool = False) -> HeadStart | None:
     """The start that lines above a table say, each as its cells; None where they say no date. order: the declared one
     of day and month; booted: whether the moment at which the logger was switched on may be it."""
-    each = (m for cells in lines for m in _moments(cells, order))
+    each = (m for cells in lines for m in _moments(cells, order) if isinstance(m, Moment))
     moments = [m for m in each if booted or m.says is not Says.BOOTED]
     whole = [m for m in moments if m.date_ns is not None and m.clock_ns is not None]
     dates = [m for m in moments if m.date_ns is not None and m.clock_ns is None]
@@ -78,9 +98,8 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     found = found or dates
     if not found:
         return None
-    first = max(found, key=lambda m: m.says)
-    alike = [m for m in found if m.says == first.says]
-    several = any(abs(_ns(m) - _ns(first)) > _NEAR_NS for m in alike)
+    first = max(found, key=lambda m: (m.says, m.zoned))
+    several = any(m.says == first.says and not _same(m, first) for m in found)
     date = first.date_ns if first.date_ns is not None else 0
     return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several)
 
@@ -91,17 +110,31 @@ def _of_two(date: Moment, clock: Moment) -> Says:
     return high if high is Says.BEGAN and low >= Says.BARE else min(low, Says.BARE)
 
 
+def unread_start(lines: Sequence[Sequence[str]], order: str | None = None) -> Unread | None:
+    """The surest of the lines above a table that name a start or a date, and whose moment can't be read; None where
+    all are read. order: as of `head_start`."""
+    each = [m for cells in lines for m in _moments(cells, order) if isinstance(m, Unread) and m.says > Says.MADE]
+    return max(each, key=lambda m: m.says, default=None)
+
+
+def _same(one: Moment, other: Moment) -> bool:
+    """Whether two lines say one moment: the same, or one in UTC and the other in the time of a place."""
+    apart = abs(_ns(one) - _ns(other))
+    in_zones = one.zoned != other.zoned and apart <= _FARTHEST_NS and apart % _QUARTER_NS <= _NEAR_NS
+    return apart <= _NEAR_NS or in_zones
+
+
 def _ns(moment: Moment) -> int:
     return (moment.date_ns or 0) + (moment.clock_ns or 0)
 
 
-def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment]:
+def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unread]:
     """The moments of one line: a label and its time in one cell, or in cells behind each other."""
     left = [" ".join((clean(c).strip(_MARKS) if k == 0 else clean(c)).split()) for k, c in enumerate(cells)]
-    left = [c for c in left if 0 < len(c) <= _LONGEST_CELL]
+    left = [c.translate(_FULL_WIDTH) for c in left if 0 < len(c) <= _LONGEST_CELL]
     k = 0
     while k < len(left):
-        label, value = _split(left[k])
+        label, zone, value = _split(left[k])
         says = said_by(label)
         if says is None:
             k += 1
@@ -110,29 +143,58 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment]:
         found, used = None, 0
         for n in range(min(_MOST_CELLS, len(left) - k)):
             text = " ".join([*values, *left[k + 1 : k + 1 + n]]).strip(" \"'")
-            if text and (read := _read(text, says, f"{label}: {text}", order)) is not None:
+            if text and (read := _read(text, zone, says, f"{label}: {text}", order)) is not None:
                 found, used = read, n
         if found is not None:
             yield found
+        elif names_a_moment(rest := " ".join([*values, *left[k + 1 : k + _MOST_CELLS]]), says is Says.BEGAN):
+            yield Unread(says, f"{label}: {rest}")
         k += 1 + used
 
 
-def _split(cell: str) -> tuple[str, str]:
-    """(label, value) of a cell; the whole cell is the label where there is no value in it."""
+def _split(cell: str) -> tuple[str, str, str]:
+    """(label, the zone that it names, value) of a cell; the whole cell is the label where there is no value in it."""
+    zoned = _ZONED_LABEL.match(cell)
+    zone = ""
+    if zoned is not None and said_by(zoned["label"]) is not None:
+        cell, zone = zoned["label"] + zoned["rest"], zoned["zone"]
     for known in _LABELLED:
         match = known.match(cell)
-        if match is not None and said_by(match[1]) is not None:
-            return match[1], match[2].strip()
-    return cell.strip(" :="), ""
+        if match is None:
+            continue
+        label, value = with_month(match[1], match[2].strip())
+        if said_by(label) is not None:
+            return label, zone, value
+    return cell.strip(" :="), zone, ""
 
 
-def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
-    """A text as a moment; None where it is none."""
+def _read(text: str, zone: str, says: Says, line: str, order: str | None) -> Moment | None:
+    """A text as a moment, as it stands or as people write one; None where it is none. zone: that its label names."""
     text = without_places(text)
+    if len(text) > _LONGEST_TIME or not re.search(r"\d", text):
+        return None
+    read, place = _read_plain(text, says, line, order), None
+    if read is None and (said := spoken(text)) is not None:
+        read, place = _read_plain(said.text, says, line, order), said.place
+        if read is not None and read.date_ns is None and not (said.timed or says is Says.BEGAN):
+            return None
+    if read is None or read.zoned or not (zone or place) or read.date_ns is None or read.clock_ns is None:
+        return read
+    local = read.date_ns + read.clock_ns
+    if zone:
+        utc = local - offset_ns(zone.upper().replace(" ", ""))
+    else:
+        utc = int(local_to_utc_ns(np.array([local], np.int64).view("datetime64[ns]"), place)[0][0])
+    day = utc // DAY_NS * DAY_NS
+    return replace(read, date_ns=day, clock_ns=utc - day, zoned=True)
+
+
+def _read_plain(text: str, says: Says, line: str, order: str | None) -> Moment | None:
+    """A text of a date and a time of day that a format reads as a moment; None where none does."""
     clock = timestamp.parse_one(text, time_pattern.with_zone(TIME_OF_DAY, False))
     if clock != NAT:
         return Moment(says, line, None, clock)
-    if len(text) > _LONGEST_TIME or not re.search(r"\d{2}", text):
+    if not re.search(r"\d{2}", text):
         return None
     either = False
     short = _SHORT_YEAR.match(text) if order == "ymd" else None

@@ -2,12 +2,14 @@
 
 A label says that rows began then, that something was recorded then, that a logger was switched on then, which may be
 another start than that of the rows, a bare date or time, or that a file was made then, which may be weeks later.
-A label with any word that is none of these says nothing of the rows: "Calibration date".
+A label with any word that is none of these says nothing of the rows: "Calibration date"; but for one that names a
+start, and leaves open of what: it is asked.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from enum import IntEnum
 
 
@@ -15,10 +17,11 @@ class Says(IntEnum):
     """What a label says of its time, the surest last."""
 
     MADE = 1  # the file was: exported, printed, created
-    BARE = 2  # a date, a time
-    BOOTED = 3  # the logger was switched on: weeks before, or for another run
-    RECORDED = 4
-    BEGAN = 5
+    NAMED = 2  # something began, and nobody knows what: 'Start Messung WZM3'
+    BARE = 3  # a date, a time
+    BOOTED = 4  # the logger was switched on: weeks before, or for another run
+    RECORDED = 5
+    BEGAN = 6
 
 
 _BEGAN = (
@@ -27,7 +30,9 @@ _BEGAN = (
     "aufnahmestart aufzeichnungsstart triggerzeit triggerzeitpunkt inizio avvio début debut départ depart "
     "démarrage demarrage déclenchement declenchement inicio comienzo arranque disparo início partida začátek "
     "zacatek počátek pocatek zahájení zahajeni spuštění spusteni początek poczatek rozpoczęcie rozpoczecie "
-    "kezdet indítás starttijd starttidspunkt 開始 開始時刻 開始時間 開始日時 测量开始 开始 开始时间 开始日期 "
+    "kezdet indítás starttijd starttidspunkt starttid gestartet begonnen startuhrzeit avviato iniziato iniciado "
+    "commencé démarré commence demarre spuštěno zahájeno rozpoczęto "
+    "開始 開始時刻 開始時間 開始日時 测量开始 开始 开始时间 开始日期 "
     "起始时间 開始日期 触发时间 시작 시작시간"
 )
 _RECORDED = (
@@ -57,9 +62,24 @@ _MADE = (
 _FILLING = (
     "of the at on in and for first sample samples value values reading data point und der des die das am um von "
     "vom ersten di del della dell dei delle e il la le les de du d l et y en el los local lokal absolute abs "
-    "absolut z ze do series channel storage"
+    "absolut z ze do series channel storage ortszeit lokalzeit locale lokale lokaler místní mistni lokalny lokal is "
+    "was ist war wurde été ete est"
 )
+WEEKDAYS = (
+    "monday tuesday wednesday thursday friday saturday sunday mon tue tues wed thu thur thurs fri sat sun "
+    "montag dienstag mittwoch donnerstag freitag samstag sonnabend sonntag mo di mi do fr sa so "
+    "lundi mardi mercredi jeudi vendredi samedi dimanche lun mar mer jeu ven sam dim "
+    "lunedi martedi mercoledi giovedi venerdi sabato domenica gio sab dom "
+    "lunes martes miercoles jueves viernes sabado domingo mie jue vie segunda terca quarta quinta sexta feira "
+    "pondeli utery streda ctvrtek patek sobota nedele po ut st ct pa ne "
+    "poniedzialek wtorek sroda czwartek piatek niedziela pon wt sr czw pt sob nd niedz "
+    "maandag dinsdag woensdag donderdag vrijdag zaterdag zondag ma wo vr za zo "
+    "mandag tirsdag onsdag torsdag fredag lordag sondag tisdag tir ons tor fre lor son "
+    "martedì mercoledì giovedì venerdì miércoles sábado mié sáb terça úterý středa čtvrtek pátek neděle środa "
+    "hetfo kedd szerda csutortok pentek szombat vasarnap"
+)  # as people write them, and without diacritics
 _WORDS = {
+    **dict.fromkeys(WEEKDAYS.split(), None),
     **dict.fromkeys(_FILLING.split(), None),
     **dict.fromkeys(_MADE.split(), Says.MADE),
     **dict.fromkeys(_BOOTED.split(), Says.BOOTED),
@@ -67,6 +87,11 @@ _WORDS = {
     **dict.fromkeys(_BARE.split(), Says.BARE),
     **dict.fromkeys(_BEGAN.split(), Says.BEGAN),
 }
+# of what ended, or of what is done to a sensor or a machine at another time
+_OTHER = re.compile(
+    r"(?i)(?:end\w*|stop\w*|fin|fine|konec|koniec|last|letzte\w*|next|previous|cal|[ck]alib\w*|kal|étalon\w*|taratura|"
+    r"verif\w*|service|wartung|maintenance|warranty|licen[cs]e|lizenz|production|job|shift|schicht)"
+)
 _CAMEL = re.compile(r"(?<=[a-zß-ÿ])(?=[A-Z])")
 _LONGEST = 60  # letters of a label
 
@@ -76,11 +101,19 @@ def said_by(label: str) -> Says | None:
     if not 0 < len(label) <= _LONGEST:
         return None
     words = re.findall(r"t_?0\b|[^\W_]+", _CAMEL.sub(" ", label).casefold().replace("t_0", "t0"))
-    if not words or any(w not in _WORDS for w in words):
+    if not words:
         return None
+    if any(w not in _WORDS for w in words):
+        return Says.NAMED if _names_a_start(words) else None
     known = [s for w in words if (s := _WORDS[w]) is not None]
     if not known:
         return None
     # a file that was made says nothing of its rows, whatever else stands there: "Report date", "Print time"; nor does
     # a logger that was switched on: "Last test boot"
     return Says.MADE if Says.MADE in known else Says.BOOTED if Says.BOOTED in known else max(known)
+
+
+def _names_a_start(words: Sequence[str]) -> bool:
+    """Whether a label with words that nobody knows names a start: of what, is open."""
+    began = any(_WORDS.get(w) is Says.BEGAN for w in words)
+    return began and not any(_OTHER.fullmatch(w) or w.isdecimal() for w in words)

@@ -25,6 +25,14 @@ def without_places(text: str) -> str:
     return _PLACED.sub("", text)
 
 
+def place_in(text: str) -> tuple[str | None, str]:
+    """(the IANA zone that a text names, the rest of it): '08:00:00 [Europe/Berlin]'. None where it names none."""
+    for match in _BY_NAME.finditer(text):
+        if match[0] in _zones():
+            return match[0], f"{text[: match.start()]} {text[match.end() :]}"
+    return None, text
+
+
 def places_above(lines: Iterable[Sequence[str]]) -> tuple[str | None, str] | None:
     """(the IANA zone of the places; where they have none, that of their offset, or None; the line) of a zone above the
     rows. None where no line names one."""

@@ -28,16 +28,34 @@ class RowClock:
         local = local or (begin is not None and begin.of_day)
         self.epoch: Epoch | None = epoch
         self.clock = LocalClock(timezone if local else None)
-        self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
+        self.days = self._new_days()
         self.joined_days = Days()
         self.counted = 0
         self._first: int | None = None
+        self.anew: dict[
+            int, Begin
+        ] = {}  # of lines in the chunk that is read next, behind which rows count from another
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
         ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
         if peek:
             return ns
+        parts, first = [], 0
+        for line, begin in sorted(self.anew.items()):
+            end = int(np.searchsorted(rows.line, line))
+            parts.append(self._utc(ns[first:end]))
+            first, self.begin = end, begin
+            self.days, self._first = self._new_days(), None
+        self.anew = {}
+        parts.append(self._utc(ns[first:]))
+        return np.concatenate(parts)
+
+    def _new_days(self) -> DayCount:
+        return DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
+
+    def _utc(self, ns: Int1D) -> Int1D:
+        """UTC, or the time from the first row, of rows that count from one start [ns], shape (n,)."""
         if self.timed.of_day:
             ns = self._of_day(ns)
             if self.begin is None:

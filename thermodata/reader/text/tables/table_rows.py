@@ -14,6 +14,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.before_values import behind_another, other_word
+from thermodata.reader.text.preamble.begin import Begin, begun_anew
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.event_line import is_event_line
 from thermodata.reader.text.rows.footer import is_footer
@@ -61,6 +62,8 @@ class RowReader:
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
         self._repeated = -1  # the last line that repeats the header
+        self._last_ns = NAT  # of the rows before a chunk, from their start
+        self._anew: dict[int, Begin] = {}  # by the lines of further heads
 
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
@@ -80,7 +83,7 @@ class RowReader:
         rows, told = self._until_another_header(rows, told, data, line)
         told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not (self.table.repeats_header(bad.text) or self._is_no_row(bad.text, bad.line)):
+            if not (self._repeats(bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
@@ -95,6 +98,15 @@ class RowReader:
             return True
         texts = [kind == "str" for kind in self.table.kinds]
         return line <= len(self.table.sample.head) and is_event_line(self._cells(text), texts)
+
+    @property
+    def anew(self) -> Sequence[Begin]:
+        """The starts of further heads, in the order of their lines."""
+        return [self._anew[line] for line in sorted(self._anew)]
+
+    def _repeats(self, text: str, line: int) -> bool:
+        """Whether a line is one of the header again, or says that the rows behind it count from another start."""
+        return line in self._anew or self.table.repeats_header(text)
 
     def _is_footer(self, text: str) -> bool:
         return is_footer(self._cells(text))
@@ -152,11 +164,14 @@ class RowReader:
         self, rows: Rows, told: list[_Complaint], data: bytes, line: int
     ) -> tuple[Rows, list[_Complaint]]:
         """The rows before a line that names the columns anew, or their units: what follows it is another table."""
-        suspects = {*rows.line[self.clocks[0].times(rows, peek=True) == NAT].tolist(), *(b.line for b in rows.bad)}
+        since_ns = self.clocks[0].times(rows, peek=True)
+        suspects = {*rows.line[since_ns == NAT].tolist(), *(b.line for b in rows.bad)}
         if not suspects:
+            self._last_ns = int(since_ns[-1]) if since_ns.size else self._last_ns
             return rows, told
         lines = data.split(b"\n")
         texts = [(n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects)]
+        self._begin_anew(texts, rows.line, since_ns)
         found = another_header(self.table, texts, self._repeated)
         self._repeated = last_repeated(self.table, texts)
         if found is None:
@@ -165,6 +180,22 @@ class RowReader:
         number, reason = found
         size = self._left(data, lines[: number - line])
         return rows.before(number), [*(t for t in told if t.line < number), _Complaint(number, reason, size)]
+
+    def _begin_anew(self, texts: Sequence[tuple[int, str]], lines: Int1D, since_ns: Int1D) -> None:
+        """Takes the starts that lines between the rows say, where the time of the rows begins anew behind them. texts:
+        (number, text) of lines that are no rows; lines, since_ns: of the rows, shape (n,)."""
+        good = since_ns != NAT
+        at, ns = lines[good], since_ns[good]
+        for number, text in texts:
+            above = [text.replace("\t", " ")] if self.table.blanks else self._cells(text)
+            begin = None if self.table.repeats_header(text) else begun_anew([above], self.table.begin)
+            k = int(np.searchsorted(at, number))
+            before = int(ns[k - 1]) if k else self._last_ns
+            if begin is not None and before != NAT and (k == ns.size or ns[k] < before):
+                self._anew[number] = begin
+                for clock in self.clocks:
+                    clock.anew[number] = begin
+        self._last_ns = int(ns[-1]) if ns.size else self._last_ns
 
     def _left(self, data: bytes, before: Sequence[bytes]) -> int:
         """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""
@@ -233,7 +264,7 @@ class RowReader:
         for row in lost.tolist():
             number = int(rows.line[row])
             text = lines[number - line].decode("utf-8", "replace").rstrip("\r")
-            if self.table.repeats_header(text) or self._is_footer(text):
+            if self._repeats(text, number) or self._is_footer(text):
                 continue
             cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
             own = [clean(cells[i]) if i < len(cells) else "" for i in (*clock.timed.group.time, *columns)]

@@ -7,25 +7,44 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from thermodata.errors import FormatError
 from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.signals.unit_words import holds_units
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import tells_quality, zero_is_good
-from thermodata.reader.text.cells.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
+from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.odd_stamps import guess_format
-from thermodata.reader.text.times.time_formats import find_format
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
+from thermodata_reader_cnc.opcua.long_times import Times, time_columns, time_form
 
-_TIMES = (
-    *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
-    *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
+_VALUES = (
+    *("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS),
+    *("valeur", "valore", "valor", "waarde", "wartość", "值", "数值", "测量值", "數值", "値", "測定値", "計測値", "값"),
 )
-_VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
+_TAGS = (
+    *NAME_WORDS,
+    *("pointname", "channelname", "parametername", "variablename", "messstellenname", "signalbezeichnung"),
+    *("repère", "étiquette", "grandeur", "voie", "etiqueta", "etichetta", "grandezza", "señal", "zmienna"),
+    *(
+        "标签",
+        "标签名",
+        "变量",
+        "变量名",
+        "位号",
+        "点名",
+        "测点",
+        "信号",
+        "信号名",
+        "通道",
+        "標籤",
+        "タグ",
+        "タグ名",
+        "信号名称",
+        "태그",
+    ),
+)
 _TYPE = "datatype"
 _NUMBER_AT_END = re.compile(r"\d{1,2}$")
 _FEWEST = 2  # values of a row that come in pairs with their tags
@@ -37,8 +56,8 @@ class Layout:
     """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
     is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
     where there is none; zero_good: whether its code 0 is, None where the codes do not tell; annotated: lines that begin
-    with '#' are none of it; unread: names of columns of numbers that differ and are none of these; more: the same of
-    further values of each row, `Kanal;Wert;Kanal;Wert`."""
+    with '#' are none of it; unread: names of columns of numbers that differ and are none of these; said: what their
+    header says of the times; more: the same of further values of each row, `Kanal;Wert;Kanal;Wert`."""
 
     delimiter: str
     row: int
@@ -53,6 +72,7 @@ class Layout:
     zero_good: bool | None
     unit: int | None
     annotated: bool
+    said: Times
     unread: tuple[str, ...] = ()
     more: tuple[Layout, ...] = ()
 
@@ -118,12 +138,17 @@ class _Header:
 
     raw: Sequence[str]
     names: Sequence[str]
-    times: tuple[int, ...]
+    said: Times
     tag: int | None
     value: int
     status: int | None
     pairs: Sequence[tuple[int, int]]
     influx: bool
+
+    @property
+    def times(self) -> tuple[int, ...]:
+        """The columns of the time."""
+        return self.said.places
 
     def whole(self, rows: Iterable[Sequence[str]]) -> list[Sequence[str]]:
         """The rows with a cell for each name."""
@@ -135,17 +160,18 @@ def _header(raw: Sequence[str], below: Sequence[Sequence[str]]) -> _Header | Non
     tells what the value is of."""
     names = [bare(c) for c in raw]
     pairs = value_pairs(names, below)
-    times = tuple(names.index(n) for n in _TIMES if n in names)
     value = pairs[0][1] if pairs else next((names.index(n) for n in _values(names) if n in names), None)
-    if value is None or not times:
+    if value is None:
         return None
-    tag = pairs[0][0] if pairs else next((names.index(n) for n in NAME_WORDS if n in names), None)
+    tag = pairs[0][0] if pairs else next((names.index(n) for n in _TAGS if n in names), None)
     if {"_time", "_value"} <= set(raw):
-        return _Header(raw, names, (raw.index("_time"),), tag, value, None, pairs, True)
+        return _Header(raw, names, Times((raw.index("_time"),), "_time", None), tag, value, None, pairs, True)
     status = _status(names)
     if tag is None and ("sourcetimestamp" not in names or status is None):
         return None
-    return _Header(raw, names, times, tag, value, status, pairs, False)
+    others = {k for k in (tag, value, status, *(k for pair in pairs for k in pair)) if k is not None}
+    said = time_columns(raw, names, below, others)
+    return None if said is None else _Header(raw, names, said, tag, value, status, pairs, False)
 
 
 def _headed_by(
@@ -157,7 +183,7 @@ def _headed_by(
     if header is None:
         return None
     body = header.whole(fields(text, delimiter) for text in below if not text.startswith("#"))
-    form = _form([text for cells in body if (text := _time(cells, header.times))], where, declared)
+    form = time_form([text for cells in body if (text := _time(cells, header.times))], where, declared)
     if form is None:
         return None
     zero: bool | None = True
@@ -185,6 +211,7 @@ def _headed_by(
         zero_good=zero,
         unit=next(iter(units), None),
         annotated=header.influx,
+        said=header.said,
         unread=tuple(header.raw[k] for k in series.unread),
     )
     return replace(found, more=_more(found, header.pairs, units, statuses))
@@ -225,7 +252,7 @@ def value_pairs(names: Sequence[str], rows: Sequence[Sequence[str]]) -> list[tup
     """(column of the tag, column of its value) of a row that holds several of them, by names that come again, numbered
     or not: 'kanal;wert;kanal;wert'. names: bare; rows: below them. Nothing where a row holds one."""
     stems = [_NUMBER_AT_END.sub("", n) for n in names]
-    tags = [k for k, n in enumerate(stems) if n in NAME_WORDS]
+    tags = [k for k, n in enumerate(stems) if n in _TAGS]
     values = [k for k, n in enumerate(stems) if n in _VALUES]
     if len(tags) != len(values) or len(tags) < _FEWEST or len({stems[k] for k in (*tags, *values)}) != _FEWEST:
         return []
@@ -246,33 +273,6 @@ def _status(names: Sequence[str]) -> int | None:
 def _values(names: Sequence[str]) -> Sequence[str]:
     """What a column of values is called: Home Assistant has states of entities, which elsewhere are the machine's."""
     return (*_VALUES, "state") if "entityid" in names else _VALUES
-
-
-def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
-    """How the times are written; None where they are no dates. FormatError: no order of day and month."""
-    for digits, form in ((r"\d{12,13}", UNIX_MS), (r"\d{16}", UNIX_US), (r"\d{19}", UNIX_NS)):
-        if stamps and all(re.fullmatch(digits, s) for s in stamps):
-            return form
-    order = declared if declared in ("dmy", "mdy", "ymd") else None
-    if declared and not order and "%" in declared:
-        return declared_format(declared)
-    try:
-        form = find_format(stamps, where, order=order)
-    except FormatError as error:
-        if error.what.startswith("day and month"):
-            raise
-        spelled = guess_format(stamps) if stamps else None
-        # the name of a month leaves nothing to confirm but which end of it is the year
-        return declared_format(spelled) if spelled and "%b" in spelled and _year_is_last(spelled, stamps) else None
-    return form if form.role == "datetime" else None
-
-
-def _year_is_last(spelled: str, stamps: Sequence[str]) -> bool:
-    """Whether 02-Mar-26 is of 2026, as historians write it: a log goes through days, and hardly through years."""
-    if "%Y" in spelled:
-        return True
-    ends = {m.groups() for s in stamps if (m := re.match(r"\s*(\d{1,2})\W[^\W\d]+\W(\d{2})\b", s))}
-    return bool(ends) and len({last for _, last in ends}) <= len({first for first, _ in ends})
 
 
 def _time(cells: Sequence[str], times: Sequence[int]) -> str:

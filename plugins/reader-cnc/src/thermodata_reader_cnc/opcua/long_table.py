@@ -199,7 +199,9 @@ def _sampled(
 def describe(path: Path, source: Source) -> Recording:
     """Tags and the first time of a log, by samples of it."""
     look = _look(path, source)
-    found = events.recording(look.plan, source, complete=None if look.whole else False, notes=look.notes)
+    zoned, said = look.layout.said.source(source, look.plan.first, look.plan.form)
+    notes = (*look.notes, *said)
+    found = events.recording(look.plan, zoned, complete=None if look.whole else False, notes=notes)
     return replace(found, signals=tuple(replace(s, unit=look.units.get(s.name, s.unit)) for s in found.signals))
 
 
@@ -216,7 +218,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     def complain(event: Event, reason: str) -> Iterator[Loss]:
         return limited(event.key, Loss(event.where, reason=f"'{event.key}': {reason}"))
 
-    table = HeldTable(look.plan, source, complain, ordered=look.by_tag, keep_all=True)
+    zoned, _ = look.layout.said.source(source, look.plan.first, look.plan.form)
+    table = HeldTable(look.plan, zoned, complain, ordered=look.by_tag, keep_all=True)
     for event in _all(path, look):
         if isinstance(event, Loss):
             yield from limited("", event)

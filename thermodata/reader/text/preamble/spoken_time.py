@@ -1,0 +1,162 @@
+"""A moment above a table as people write it: 'Di, 6. Mai 2026 um 08.10 Uhr (Ortszeit)', 'le 6 mai 2026 à 8h10'. Its one
+date, its one time of day and its one zone are found among words that say nothing else, and put as formats read them.
+Where anything stands there that is none of these, a text is no such moment: 'morgens', 'CST', a second date."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+from functools import lru_cache
+
+from thermodata.reader.text.cells.clock_pattern import HALF
+from thermodata.reader.text.cells.zone_words import OFFSET, WORDS
+from thermodata.reader.text.preamble.head_words import WEEKDAYS
+from thermodata.reader.text.preamble.zone_places import place_in
+from thermodata.reader.text.times.timestamp import CENTURY
+
+_MONTHS = (
+    "january jan januar janner janvier janv gennaio gen enero ene janeiro leden ledna stycznia styczen januari januara",
+    "february feb februar feber fevrier fevr fev febbraio febrero fevereiro unor unora lutego luty februari februara",
+    "march mar marz maerz mrz mars marzo marco brezen brezna marca marzec maart mrt marts marcius",
+    "april apr avril avr aprile abril abr duben dubna kwietnia kwiecien aprila aprilis",
+    "may mai maggio mag mayo maio kveten kvetna maja maj mei majus",
+    "june jun juni juin giugno giu junio junho cerven cervna czerwca czerwiec juna junius",
+    "july jul juli juillet juil luglio lug julio julho cervenec cervence lipca lipiec jula julius",
+    "august aug aout agosto ago srpen srpna sierpnia sierpien augustus augusti augusta augusztus",
+    "september sep sept septembre settembre sett septiembre setiembre setembro zari wrzesnia wrzesien septembra "
+    "szeptember",
+    "october oct oktober okt octobre ottobre ott octubre outubro rijen rijna pazdziernika pazdziernik oktobra",
+    "november nov novembre noviembre novembro listopad listopadu listopada novembra",
+    "december dec dezember dez decembre dicembre dic diciembre dezembro prosinec prosince grudnia grudzien "
+    "desember decembra",
+)
+_MONTH = {word: number for number, words in enumerate(_MONTHS, 1) for word in words.split()}
+# between the parts of a date and a time of day
+_FILLING = (
+    "am um den der dem vom ab im le la les a de du d il alle ore del di el las al y dne ve v o w dnia godz godzina on "
+    "at the of in kl klo om das as op uhr h hrs hr hod hodin hodina uur heures horas oclock"
+)
+_WORDLESS = frozenset(f"{WEEKDAYS} {_FILLING}".split())
+_LOCAL = re.compile(
+    r"\b(?:local(?:ly)?(?: ?time)?|lt|ortszeit|lokal ?zeit|lokale zeit|lokal|lokaal|heure locale|ora locale|hora local|"
+    r"mistni(?:ho)? casu?|lokal ?tid|czasu? lokaln(?:y|ego)|(?:lokale|plaatselijke) tijd|helyi ido)\b"
+)
+_CJK = re.compile(
+    r"[\[(（]?[日月火水木金土]曜日?[\])）]?|[\[(（][日月火水木金土][\])）]|(?:星期|周|週)[一二三四五六日天]|"
+    r"[\[(（]?(?:当地时间|當地時間|本地时间|本地時間|現地時間|현지 ?시간)[\])）]?"
+)
+_WORD = r"(?P<word>[^\W\d_]{3,})\.?"
+_YEAR = r"(?P<year>\d{4}|\d\d(?![\d:.h]))(?!\d)"
+_SPELLED = (
+    re.compile(
+        rf"(?<![\d.:])(?P<day>\d{{1,2}})(?:st|nd|rd|th|er|º|°)?\.?(?:[ -]|(?<=\.))(?:de |of )?"
+        rf"{_WORD}[ ,-]+(?:del? )?{_YEAR}"
+    ),
+    re.compile(rf"(?<![^\W_]){_WORD} (?P<day>\d{{1,2}})(?:st|nd|rd|th)?,? (?P<year>\d{{4}})(?!\d)"),
+    re.compile(rf"(?<!\d)(?P<year>\d{{4}})[. ,-]+{_WORD}[ -](?P<day>\d{{1,2}})(?!\d)\.?"),
+)
+_NUMBERS = re.compile(
+    r"(?<![\d.])(?:\d{4}([-/.]) ?\d{1,2}\1 ?\d{1,2}|\d{1,2}([-/.]) ?\d{1,2}\2 ?(?:\d{4}|\d{2})|"
+    r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일])(?!\d)\.?"
+)
+_CLOCKS = (
+    re.compile(rf"(?<![\d:.])\d{{1,2}}(?::\d\d){{1,2}}(?:[.,]\d{{1,9}})?(?:\s?{HALF})?(?![\d:])"),
+    re.compile(
+        r"(?<![\d:.])(?P<H>\d{1,2}) ?h ?(?P<M>\d\d)(?: ?(?:min|m|')? ?(?P<S>\d\d) ?(?:s|sec|\")?| ?(?:min|m)?)(?!\w)"
+    ),
+    re.compile(
+        r"(?i)(?<![\d:.])(?P<H>\d{1,2})\.(?P<M>\d\d)(?:\.(?P<S>\d\d))?(?=\s?(?:uhr|h|hrs|hod|uur|godz)\b)|"
+        r"(?i:(?<=um )|(?<=at )|(?<=kl )|(?<=kl\. )|(?<=klo )|(?<=ore )|(?<=om ))(?P<H2>\d{1,2})\.(?P<M2>\d\d)(?![\d.])"
+    ),
+    re.compile(r"(?i)(?<![\d:.])(?P<H>\d{1,2})\s?(?:uhr|h|hrs|hod|uur|o'clock)(?![\w])(?:\s(?P<M>\d\d)(?![\d.:]))?"),
+    re.compile(r"(?i)(?<![\d:.])(?P<H>\d{1,2})\s?(?P<half>[ap]\.?m\.?)(?!\w)"),
+    re.compile(r"(?<!\d)\d{1,2} ?[時时시] ?\d{2}[分분](?: ?\d{2}[秒초])?"),
+)
+_ZONE = re.compile(
+    rf"(?<![^\W_])(?:(?:UTC|GMT) ?[+-]\d{{1,2}}(?::?\d\d)?|(?:{WORDS})(?![^\W_]))|"
+    rf"(?<=[\s(])(?:{OFFSET})(?![\d:])|(?<=\d)Z\b"
+)
+_HOURS = re.compile(r"(?i)\d ?h(?:rs?)?(?!\w)|\dh\d")
+_LONGEST = 200  # letters that a date is looked for in
+_FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
+
+
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """text: the moment, as formats read it; place: the IANA zone that is named behind it; timed: whether it tells a
+    time of day that is no number of hours: '8 h' may be a duration."""
+
+    text: str
+    place: str | None
+    timed: bool
+
+
+def spoken(text: str) -> Spoken | None:
+    """The moment that a text says: '2026-05-06 08:10 CEST' of 'Mi, 6. Mai 2026, 8h10 CEST'. None where it says none, or
+    anything that is no part of one."""
+    date, rest = _date_in(" ".join(text.split()))
+    place, rest = place_in(rest)
+    zone = _ZONE.search(rest)
+    if zone is not None:
+        rest = f"{rest[: zone.start()]} {rest[zone.end() :]}"
+    clock, timed, rest = _clock_in(rest)
+    left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
+    whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
+    if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
+        return None
+    return Spoken(" ".join(filter(None, (date, clock, zone and zone[0]))), None if zone else place, timed)
+
+
+def names_a_moment(text: str, started: bool) -> bool:
+    """Whether a date stands in a text, or, behind a label of a start, a time of day."""
+    text = " ".join(text.split())[:_LONGEST]
+    return _date_in(text)[0] is not None or (started and _CLOCKS[0].search(text) is not None)
+
+
+def with_month(label: str, value: str) -> tuple[str, str]:
+    """(label, value) with the name of a month that ends the label before the value: 'Started on March', '2, 2026'."""
+    bare, _, word = label.rpartition(" ")
+    return (bare, f"{word} {value}") if bare and _folded(word.strip(".,")) in _MONTH else (label, value)
+
+
+def _date_in(text: str) -> tuple[str | None, str]:
+    """(the first date of a text, the rest of it)"""
+    for known in _SPELLED:
+        match = known.search(text)
+        month = _MONTH.get(_folded(match["word"])) if match is not None else None
+        if match is not None and month is not None:
+            year = int(match["year"])
+            year += 0 if len(match["year"]) == 4 else 2000 if year < CENTURY else 1900
+            date = f"{year}-{month:02d}-{int(match['day']):02d}"
+            return date, f"{text[: match.start()]} {text[match.end() :]}"
+    match = _NUMBERS.search(text)
+    if match is None:
+        return None, text
+    return match[0].rstrip("."), f"{text[: match.start()]} {text[match.end() :].removeprefix('T')}"
+
+
+def _clock_in(text: str) -> tuple[str | None, bool, str]:
+    """(the first time of day of a text, whether it is surely one, the rest of it)"""
+    for known in _CLOCKS:
+        match = known.search(text)
+        if match is None:
+            continue
+        part = match.groupdict()
+        hour, minute = part.get("H") or part.get("H2"), part.get("M") or part.get("M2") or "00"
+        plain = match[0]
+        if hour is not None:
+            plain = ":".join(filter(None, (hour, minute, part.get("S")))) + f" {part.get('half') or ''}"
+        return (
+            plain.strip(),
+            _HOURS.search(text[match.start() :]) is None,
+            f"{text[: match.start()]} {text[match.end() :]}",
+        )
+    return None, False, text
+
+
+@lru_cache(maxsize=1024)
+def _folded(text: str) -> str:
+    """A text in small letters without diacritics."""
+    parts = unicodedata.normalize("NFD", text.casefold().translate(_FOLDED))
+    return "".join(c for c in parts if not unicodedata.combining(c))
