@@ -26,6 +26,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
+from thermodata.reader.text.names.unit_in_name import unit_at_end
 from thermodata.schema.units.letters import encoding_hint
 from thermodata.schema.units.quantity import is_unit
 
@@ -161,7 +162,7 @@ class _Name:
 
     def unit(self) -> str | None:
         """The unit that stands in it, whatever the quantity is."""
-        at_end = next(filter(None, map(units.from_name, self.ends)), None)
+        at_end = next(filter(None, map(unit_at_end, self.ends)), None)
         return _in_brackets(self.whole) or self.rate or at_end or units.inches(self.whole_last)
 
 
