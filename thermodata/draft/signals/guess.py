@@ -13,6 +13,7 @@ from functools import lru_cache
 from thermodata.draft.signals import bracket_at_end, units
 from thermodata.draft.signals.doubted_units import doubted, implausible
 from thermodata.draft.signals.implied_unit import with_unit
+from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
@@ -118,7 +119,8 @@ def guess(
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(said.last, known))
-    found = _small(placed(with_unit(found, text, unit, written, values), own, text, told), own, values)
+    found = with_unit(found, text, unit, written, values)
+    found = _small(placed_but_for_unit(found, own, text, told, said.bare, known is not None), own, values)
     found = _asked_by_name(found, said, unit, written, values)
     if values is None:
         return found
