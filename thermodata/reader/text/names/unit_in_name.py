@@ -18,7 +18,8 @@ AT_END = re.compile(
 )
 _SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
 _WORDS = ("min", "in", "deg", "rev", "inc", "bit")  # of another kind than the file's unit, these are words
-_COUNTED = re.compile(r"\s*\d+(?:[.,]\d+)?\s*(?:[^\W\d_]|[°%])")  # '[10 nm]': what one count is, or how far the values may go
+# '[10 nm]': what one count is, or how far the values may go
+_COUNTED = re.compile(r"\s*\d+(?:[.,]\d+)?\s*(?:[^\W\d_]|[°%])")
 _DEGREES = re.compile(r"°|º|˚|deg|grad", re.IGNORECASE)  # of an angle as much as of a temperature
 _NEARLY = 1e-3
 
