@@ -28,7 +28,8 @@ _END = (
 )
 _ROLE = (
     "role. rolle. rol. use. purpose. zweck. verwendung. usage. utilisation. but. objet. doel. gebruik. remark. "
-    "remarks. comment. comments. note. notes. bemerkung. kommentar. remarque. commentaire. opmerking. opmerkingen. poznamka. "
+    "remarks. comment. comments. note. notes. bemerkung. kommentar. remarque. commentaire. opmerking. "
+    "opmerkingen. poznamka. "
     "用途 目的 备注 備考 役割 注释 说明 メモ"
 )
 _CALLED = "plan list. liste. lijst. proeven essais versuche uebersicht protokol 记录 計画 计划 一覧 清单 記録 リスト"
