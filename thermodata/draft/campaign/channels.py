@@ -24,6 +24,7 @@ from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
+from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.two_units import with_both_units
 from thermodata.draft.signals.values import Values, in_unit, joined, least_reading
 from thermodata.draft.words.axis import axis_of
@@ -261,7 +262,7 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         said = min(
             said, guess(called(signal), usual, signal.dtype, scaled, told_of(signal)), key=lambda g: len(g.questions)
         )
-    said = replace(said, sure=False) if where else said
+    said = with_standard_unit(replace(said, sure=False) if where else said, signal)
     if TOLD_TOO in signal.properties and said.quantity:
         asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
         said = replace(said, questions=(*said.questions, asked))

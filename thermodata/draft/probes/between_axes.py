@@ -26,15 +26,15 @@ def question_between(name: str, unit: str, jump: JumpTest, jumps: Sequence[JumpT
             continue
         if not all(_at_once(there, m) for m in _all(other)):
             continue  # it was moved by itself in that recording
-        besides = (m for m in _all(jump) if m.signal != jump.signal and m.height > _AS_FAR * here.height)
-        beside = next(besides, None)
+        beside = next((m for m in _all(jump)[1:] if m.height > _AS_FAR * here.height), None)
         also = next((m for m in _all(other) if beside is not None and m.signal == beside.signal), None)
         with_it = f", as '{beside.signal[1]}' does" if beside else ""
         return (
             f"axis: {own} by {jump.file.path.name}, or {axis} by {other.file.path.name}? both move it, by "
             f"{here.height:.3g} and {there.height:.3g} {unit}{with_it}: of a nest that is turned, each axis gets a "
-            f'channel that derives from both probes, d{own}: {{derive: "({name} {_sign(here, beside)} the other) * ? um '
-            f'/ 1 {unit}", quantity: displacement, axis: {own}, at: tcp, relative_to: table}}, where ? is the move by '
+            f'channel that derives from both probes, d{own}: {{derive: "({name} {_sign(here, beside)} the other) * '
+            f'? um / 1 {unit}", quantity: displacement, axis: {own}, at: tcp, relative_to: table}}, where ? is the '
+            "move by "
             f"the sum of both steps, and d{axis} with ({name} {_sign(there, also)} the other)"
         )
     return None

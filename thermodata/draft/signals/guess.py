@@ -17,6 +17,7 @@ from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
+from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
@@ -74,7 +75,7 @@ def told_of(signal: Signal) -> str:
 
 def guess_of(signal: Signal, values: Values | None = None) -> Guess:
     """The same of a signal, as all that its file says of it has it."""
-    return guess(called(signal), signal.unit, signal.dtype, values, told_of(signal))
+    return with_standard_unit(guess(called(signal), signal.unit, signal.dtype, values, told_of(signal)), signal)
 
 
 @lru_cache(maxsize=50_000)
