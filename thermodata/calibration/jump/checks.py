@@ -56,7 +56,10 @@ def rows(
         table.append(_at_most("drift_pct", 100.0 * abs(fit.drift_um) / fit.span_um, DRIFT_PCT, advice))
     if answers:
         most = max(answers, key=lambda k: answers[k])
-        advice = f"'{most}' answers this axis too: align the probes with the axes"
+        advice = (
+            f"'{most}' answers this axis too: align the probes with the axes, or, where the nest is turned, give each "
+            'axis a channel that derives from both: {derive: "(a + b) * ... um / 1 V"}'
+        )
         table.append(_at_most("crosstalk_pct", answers[most], CROSSTALK_PCT, advice))
         advice = f"'{most}' answers the move of {spec.axis} more than '{spec.signal}': swapped cables?"
         table.append(check("answers_most", answers[most], 100.0, answers[most] < 100.0, advice))

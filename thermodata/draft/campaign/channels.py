@@ -23,7 +23,9 @@ from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
-from thermodata.draft.signals.values import Values, in_unit, joined
+from thermodata.draft.signals.standard_units import with_standard_unit
+from thermodata.draft.signals.two_units import with_both_units
+from thermodata.draft.signals.values import Values, in_unit, joined, least_reading
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
@@ -93,6 +95,7 @@ def channels_of(
         name = channel_name(own or wished_name(with_series(signal), said), taken)
         turned = exported and said.axis is not None and _is_signed(one)
         calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
+        said = with_both_units(said, one.seen())
         only, lacking = _tests_with(one, group)
         notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
         made.append(
@@ -199,19 +202,18 @@ def _way(one: OneSignal) -> str | None:
 def _is_of_others(one: OneSignal) -> bool:
     """Whether a signal says something of another one and nothing of the machine: the quality by which its reader flags
     a column beside it, or the constant number of a tag (`T_air_NUMERICID`)."""
-    own = [(f, one.of(f) or one.signal) for f in one.files]
-    if own and all(QUALITY_OF in s.properties for _, s in own):
+    own = one.seen()
+    if own and all(QUALITY_OF in s.properties for s, _ in own):
         return True
     if one.signal.unit is not None or not _TAG_NUMBER.search(one.signal.name):
         return False
-    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    seen = [v for _, v in own]
     return bool(seen) and all(v is not None and v.constant and v.whole for v in seen)
 
 
 def _counts_rows(one: OneSignal) -> bool:
     """Whether a signal numbers the rows of each file that has it."""
-    own = [(f, one.of(f) or one.signal) for f in one.files]
-    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    seen = [v for _, v in one.seen()]
     return bool(seen) and all(v is not None and v.counts_rows for v in seen)
 
 
@@ -259,7 +261,7 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         said = min(
             said, guess(called(signal), usual, signal.dtype, scaled, told_of(signal)), key=lambda g: len(g.questions)
         )
-    said = replace(said, sure=False) if where else said
+    said = with_standard_unit(replace(said, sure=False) if where else said, signal)
     if TOLD_TOO in signal.properties and said.quantity:
         asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
         said = replace(said, questions=(*said.questions, asked))

@@ -13,6 +13,7 @@ from thermodata.draft.folder.group import files_of
 from thermodata.draft.folder.notes import Note
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.folder.table import TestTable
+from thermodata.draft.probes.jump_within import window_behind_jumps
 from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import Named
 from thermodata.draft.words.roles import said_by_list
@@ -46,6 +47,8 @@ def drafted_test(
     window = next((f.block.window for f in files if f.block is not None), None)
     if window is not None and len(files) > 1:
         doubts.append(window_question(files))
+    if window is None and (jumps := window_behind_jumps(files)) is not None:
+        doubts.append(jumps)
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 

@@ -8,6 +8,7 @@ from statistics import median
 
 from thermodata.draft.campaign.parts import DraftJump
 from thermodata.draft.folder.one_signal import OneSignal
+from thermodata.draft.probes.between_axes import question_between
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.which_way import ASKED, calibration_for
 from thermodata.draft.signals.quantity import Guess
@@ -48,6 +49,11 @@ def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], be
     other = next((c for c in used if name is not None and c.signal == name), None)
     if other is None and name is None:
         return "taken for a jump test by its name, and nothing is seen to move in it"
+    if other is None and question_between(str(name), "V", own, jumps) is not None:
+        return (
+            f"a jump test of '{name}', which looks between two axes, in steps of "
+            f"{_listed([s.size for s in own.steps])}: what each axis gets of both probes is derived"
+        )
     if other is None:
         return f"taken for a jump test of '{name}', and there is no one displacement in the tests that is called so"
     said = f"a second jump test of '{name}', beside {other.file}"
@@ -97,6 +103,10 @@ def calibration_of(
     if jump is None:
         asked = "calibration? a jump test, or kind: scale with a gain in um/V"
         return None, replace(said, sure=False, questions=(*said.questions, asked))
+    if (asked := question_between(name, said.unit or "V", jump, jumps)) is not None:
+        others = (q for q in said.questions if q != "axis?")
+        said = replace(said, quantity="voltage", axis=None, at=None, sure=False, questions=(*others, asked))
+        return None, said
     return _drafted(name, signal, said, jump, calibrations)
 
 

@@ -23,6 +23,7 @@ from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.legend import with_legends
+from thermodata.draft.folder.lists_of_tests import lists_apart
 from thermodata.draft.folder.notes import described_in, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
@@ -56,6 +57,7 @@ NO_ZONES = ZonesBefore()
 def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONES) -> Draft:
     """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
+    found = lists_apart(folder, found)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, legends = with_legends(folder, found)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.units import converts, quantities_of
+from thermodata.draft.signals.values import Values
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
@@ -39,6 +40,11 @@ class OneSignal:
         """The signal as this file has it."""
         keys = {(s.stream, s.name) for s in self.spellings}
         return next((s for s in file.signals if (s.stream, s.name) in keys), None)
+
+    def seen(self) -> list[tuple[Signal, Values | None]]:
+        """The signal as each of its files has it, with its values there."""
+        own = [(f, self.of(f) or self.signal) for f in self.files]
+        return [(s, f.sample.values.get((s.stream, s.name))) for f, s in own]
 
 
 def joined_over_units(found: Sequence[tuple[Signal, Sequence[RawFile]]]) -> list[OneSignal]:

@@ -145,11 +145,11 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
         return None
     header, lines = body[0], body[1:]
     wanted = {normal(t): t for t in tests}
-    numbers = _numbers(tests) if by_number else {}
+    beginnings, numbers = _beginnings(tests), _numbers(tests) if by_number else {}
     best: tuple[int, int, dict[int, str]] | None = None
     for column in range(len(header)):
         keys = [normal(_stem(r[column])) if column < len(r) else "" for r in lines]
-        for lookup in (wanted, numbers):
+        for lookup in (wanted, beginnings, numbers):
             named = {i: lookup[k] for i, k in enumerate(keys) if k in lookup}
             if len(set(named.values())) == len(named) and (best is None or len(named) > best[0]):
                 best = (len(named), column, named)
@@ -170,6 +170,17 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
 def _stem(cell: str) -> str:
     """The name in a cell that holds a file's; a number stays as it is."""
     return PurePath(cell).stem if "." in cell and not cell[-1:].isdigit() else cell
+
+
+def _beginnings(tests: Sequence[str]) -> dict[str, str]:
+    """What the names of tests begin with, where that is of one alone and no number: 'T1' -> 'T1_servo'."""
+    of: dict[str, set[str]] = {}
+    for test in tests:
+        for end in re.finditer(r"(?<=[^\W_])[_\W]", test):
+            of.setdefault(normal(test[: end.start()]), set()).add(test)
+    names = {normal(t) for t in tests}
+    found = {n: next(iter(own)) for n, own in of.items() if len(own) == 1 and n not in names and not n.isdigit()}
+    return found if len(set(found.values())) == len(tests) else {}
 
 
 def _numbers(tests: Sequence[str]) -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from thermodata.draft.probes.jumps import JumpTest
+from thermodata.draft.probes.jumps import JumpTest, Moved
 from thermodata.draft.words.naming import words
 
 
@@ -20,8 +20,11 @@ def each_its_own(jumps: Sequence[JumpTest]) -> list[JumpTest]:
             if len(same) < 2 or not having or any(j.signal == name for j in made):
                 continue
             best = max(having, key=lambda i: _alike(made[i], name) - _alike(made[i], probe))
-            its = having[best]
-            made[best] = replace(made[best], signal=name, steps=its.steps, dwell_s=its.dwell_s)
+            its, jump = having[best], made[best]
+            beside = [o for o in jump.others if o is not its]
+            if jump.signal is not None:
+                beside.append(Moved(jump.signal, jump.steps, jump.dwell_s))
+            made[best] = replace(jump, signal=name, steps=its.steps, dwell_s=its.dwell_s, others=tuple(beside))
     return made
 
 

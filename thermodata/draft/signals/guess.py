@@ -13,9 +13,11 @@ from functools import lru_cache
 from thermodata.draft.signals import bracket_at_end, units
 from thermodata.draft.signals.doubted_units import doubted, implausible
 from thermodata.draft.signals.implied_unit import with_unit
+from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
+from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
@@ -26,6 +28,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
+from thermodata.reader.text.names.unit_in_name import unit_at_end
 from thermodata.schema.units.letters import encoding_hint
 from thermodata.schema.units.quantity import is_unit
 
@@ -72,7 +75,7 @@ def told_of(signal: Signal) -> str:
 
 def guess_of(signal: Signal, values: Values | None = None) -> Guess:
     """The same of a signal, as all that its file says of it has it."""
-    return guess(called(signal), signal.unit, signal.dtype, values, told_of(signal))
+    return with_standard_unit(guess(called(signal), signal.unit, signal.dtype, values, told_of(signal)), signal)
 
 
 @lru_cache(maxsize=50_000)
@@ -117,7 +120,8 @@ def guess(
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(said.last, known))
-    found = _small(placed(with_unit(found, text, unit, written, values), own, text, told), own, values)
+    found = with_unit(found, text, unit, written, values)
+    found = _small(placed_but_for_unit(found, own, text, told, said.bare, known is not None), own, values)
     found = _asked_by_name(found, said, unit, written, values)
     if values is None:
         return found
@@ -161,7 +165,7 @@ class _Name:
 
     def unit(self) -> str | None:
         """The unit that stands in it, whatever the quantity is."""
-        at_end = next(filter(None, map(units.from_name, self.ends)), None)
+        at_end = next(filter(None, map(unit_at_end, self.ends)), None)
         return _in_brackets(self.whole) or self.rate or at_end or units.inches(self.whole_last)
 
 

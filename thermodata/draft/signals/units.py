@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from thermodata.errors import UsageError
+from thermodata.reader.text.names.unit_in_name import AT_END, unit_at_end
 from thermodata.schema.units.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
 from thermodata.schema.units.quantity import converts as converts_to
 from thermodata.schema.units.scale import scaled_unit
@@ -50,14 +51,6 @@ _SLOPE = re.compile(r"[uμnm]?m/m")
 _ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
 _ENERGY = re.compile(r"(?:Wh|J|[Cc]al|BTU)$")  # pint takes an energy for a torque
 _LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")  # pint turns any bare number into these
-# A unit at the end of a name, after a separator: unmistakable ones only.
-_IN_NAME = re.compile(
-    r"(?:^|[_.\s-])(deg[CF]|[°º][CF]|[℃℉]|Celsius|Fahrenheit|k?rpm|RPM|rps|kW|um|µm|μm|mm|inch|thou|lpm|ipm|m?bar|"
-    r"kPa|hPa|MPa|psi|mA|mV|Nm|urad|pct|%|‰|promille?|permille|"
-    r"(?:mm|m|l|1|U)[_/](?:min))$"
-)
-
-_SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
 _COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|[°º%][^\[\]]*))\]\s*$")
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _LABELS = re.compile(r"\s*\{[^{}]*\}$")
@@ -72,12 +65,6 @@ def rate_at_end(name: str) -> tuple[str, str | None]:
     stroke parts no path of names."""
     match = _RATE_AT_END.search(name.strip())
     return (name.strip()[: match.start()], match[1]) if match else (name, None)
-
-
-def from_name(name: str) -> str | None:
-    """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
-    match = _IN_NAME.search(name.strip())
-    return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
 
 
 def without_value(name: str) -> str:
@@ -115,10 +102,10 @@ def may_be_fahrenheit(name: str) -> bool:
 def without_rate(name: str, unit: str | None) -> str:
     """A name without the unit at its end, where that is `unit` and a rate: 'feed_x_m_min' -> 'feed_x', whose 'min' is a
     minute and no smallest value."""
-    written = from_name(name)
+    written = unit_at_end(name)
     if written is None or "/" not in written or unit is None or normal_unit(written) != normal_unit(unit):
         return name
-    return _IN_NAME.sub("", name.strip()) or name
+    return AT_END.sub("", name.strip()) or name
 
 
 def quantities_of(unit: str) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Signal
 from thermodata.reader.signals.units_met import units_met
+from thermodata.reader.text.names.unit_in_name import other_unit_note
 from thermodata.reader.times.clock_leaps import Leap
 from thermodata.reader.times.newest_first import NOTE, Steps
 
@@ -29,7 +30,7 @@ class Seen:
             self._signals[signal.stream].append(signal)
         self._losses: list[Loss] = []
         self._units = units_met(said.signals)
-        self._notes = list(said.notes)
+        self._notes = [*said.notes, *filter(None, map(other_unit_note, said.signals))]
 
     def add(self, block: Block) -> None:
         self._streams[block.stream].add(block, self._absolute, self._first_rows)

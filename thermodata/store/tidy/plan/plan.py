@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.finding.match import NoSignalError
+from thermodata.reader.text.names.unit_in_name import other_unit
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.raw.raw_stream import RawStream
@@ -183,6 +184,8 @@ def bind(plan: TestPlan) -> None:
             source.parts |= found.parts
             if found.note is not None:
                 plan.notes.append(f"channel '{name}': {found.note}")
+            if channel.unit is None and (said := _two_units(found, channel)):
+                plan.problems.append(f"channel '{name}': {said}")
             unit = channel.unit or found.unit
             plan.bound[name] = Bound(name, channel, source.name, found.raw.stream, found.signal, unit)
     for name, channel in channels.items():
@@ -191,6 +194,18 @@ def bind(plan: TestPlan) -> None:
     order = list(plan.campaign.channels)
     plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
     _say_what_parts_it(plan)
+
+
+def _two_units(found: Found, channel: Channel) -> str | None:
+    """What is told of a signal whose name says another unit than its file, where the campaign file says none."""
+    own = other_unit(found.signal.name, found.signal.unit, channel.quantity == "temperature_difference")
+    if own is None or found.signal.scaling is not None or channel.quantity in ("label", "state"):
+        return None
+    by = found.signal.unit
+    return (
+        f"the name '{found.signal.name}' says {own}, and the file gives it in {by}, which is taken; try: "
+        f"unit: \"{by}\" in the channel, or, where the name is right, unit: \"{own}\", instead_of: \"{by}\""
+    )
 
 
 def _say_what_parts_it(plan: TestPlan) -> None:

@@ -1,0 +1,47 @@
+"""A test whose measurement holds the moves of a jump test is told, with the window that leaves them out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from store_fakes import daq, write_log
+
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+JUMP = (
+    "calibrations:\n  jump: {kind: jump, axis: Z, source: daq, file: raw/one_a.npz, signal: Z, "
+    "moves: [100 um, -100 um], dwell: 20 s}\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("at_s", "window", "proposed"),
+    [
+        (30, "", "[80 s, 1199 s]"),
+        (1000, "", "[0 s, 1000 s]"),
+        (30, ", window: [80 s, 1199 s]", None),
+        (30, ", window: [20 s, 1199 s]", "[80 s, 1199 s]"),
+        (30, ", window: [0 s, 25 s]", None),
+    ],
+)
+def test_the_moves_of_a_jump_test_in_a_test(
+    store: Store, campaign: Path, at_s: int, window: str, proposed: str | None
+) -> None:
+    log, t = daq(), np.arange(1200)
+    log["main"]["Z"] += 1.0 * ((t >= at_s) & (t < at_s + 50))
+    write_log(campaign.parent / "raw/one_a.npz", log)
+    text = campaign.read_text(encoding="utf-8").replace("calibrations:\n", JUMP)
+    text = text.replace("calibration: lvdt}", "calibration: jump}").replace(
+        "speed: 9000 rpm}", "speed: 9000 rpm}" + window
+    )
+    campaign.write_text(text, encoding="utf-8")
+    told = [
+        x for x in ingest(store, campaign).losses if "the moves of the jump test jump lie in this test" in x["reason"]
+    ]
+    assert [x["test"] for x in told] == (["one"] if proposed else [])
+    if proposed:
+        numbers = [float(n) for n in told[0]["reason"].rpartition("window: [")[2].split(" s")[0:1]]
+        assert numbers[0] == pytest.approx(float(proposed[1:].split(" s")[0]), abs=2)

@@ -1,0 +1,77 @@
+"""Lists of the tests that a reader takes for a log, because they have dates: a row a test, with its name, when it began
+and ended, its role, a remark."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from thermodata.draft.folder.scan import Scan
+from thermodata.draft.folder.table import SUFFIXES, grids_of, is_called_table, there
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.vocabulary import says
+from thermodata.reader.text import split_unit
+from thermodata.schema.words.sentences import with_count
+
+_KEY = (
+    "test. test~id versuch. versuchs~nr run. lauf. nr. no. num. id. name. bezeichnung. essai. numero. proef. meting. "
+    "messung. mereni. zkouska. prova. ensayo. 编号 序号 试验 测试 实验 名称 番号 試験 測定 実験"
+)
+_BEGIN = (
+    "start. begin. begins. began. beginn. anfang. von. from. debut. depart. van. aanvang. starttijd. begintijd. "
+    "startzeit. inizio. inicio. zacatek. od. 开始 起始 開始"
+)
+_END = (
+    "end. ends. ended. ende. stop. bis. to. until. fin. arret. tot. einde. eindtijd. stoptijd. endzeit. fine. konec. "
+    "do. duration. dauer. duree. duur. 结束 終了 停止 时长 時間長"
+)
+_ROLE = (
+    "role. rolle. rol. use. purpose. zweck. verwendung. usage. utilisation. but. objet. doel. gebruik. remark. "
+    "remarks. comment. comments. note. notes. bemerkung. kommentar. remarque. commentaire. opmerking. "
+    "opmerkingen. poznamka. "
+    "用途 目的 备注 備考 役割 注释 说明 メモ"
+)
+_CALLED = "plan list. liste. lijst. proeven essais versuche uebersicht protokol 记录 計画 计划 一覧 清单 記録 リスト"
+_MOST_ROWS, _LEAST_SAID, _SHOWN = 100, 2, 4
+
+
+def lists_apart(folder: Path, found: Scan) -> Scan:
+    """What was found, with the lists of tests among the others, and no longer among the logs."""
+    lists = {str(f.path): names for f in found.logs if f.part is None and (names := listed_tests(folder, str(f.path)))}
+    kept = tuple(f for f in found.logs if str(f.path) not in lists)
+    why = tuple((path, _why(names)) for path, names in lists.items())
+    return replace(found, logs=kept, others=(*found.others, *lists), ignored=(*found.ignored, *why))
+
+
+def _why(names: Sequence[str]) -> str:
+    shown = with_count([f"'{n}'" for n in names], _SHOWN)
+    return f"a list of tests ({shown}), and no log; no test here is called so"
+
+
+def listed_tests(folder: Path, path: str) -> list[str]:
+    """The tests that a file lists, in its order; empty where it is no list."""
+    own = there(folder / path) if Path(path).suffix.lower() in SUFFIXES else None
+    grids = list(grids_of(own, _MOST_ROWS)) if own is not None else []
+    for rows in grids:
+        body = [r for r in rows if sum(map(bool, r)) >= 2]
+        if len(body) >= 2 and (names := _named(body[0], body[1:], path)):
+            return names
+    return []
+
+
+def _named(header: Sequence[str], lines: Sequence[Sequence[str]], path: str) -> list[str]:
+    titles = [words(split_unit(t)[0]) for t in header]
+    column = next((i for i, t in enumerate(titles) if says(_KEY, t) and not says(f"{_BEGIN} {_END}", t)), None)
+    if column is None:
+        return []
+    names = [line[column].strip() if column < len(line) else "" for line in lines]
+    if not all(names) or len(set(names)) < len(names):
+        return []
+    begins = any(says(_BEGIN, t) for t in titles) and any(says(_END, t) for t in titles)
+    role = any(says(_ROLE, t) for t in titles)
+    called = is_called_table(path) or says(_CALLED, words(Path(path).stem))
+    # rows that are numbered may be means of a log, from one time to the next
+    counted = all(n.isdigit() for n in names)
+    said = sum((begins, role, called))
+    return names if said >= _LEAST_SAID and (role or not counted) else []

@@ -1,0 +1,77 @@
+"""A test that begins with a jump test: probes that go up and down in steps before the spindle turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.calibration.jump.plateaus import Step
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.files.sample import Course
+from thermodata.draft.probes.jumps import staircase
+from thermodata.draft.signals.guess import guess_of
+from thermodata.schema.words.sentences import with_count
+
+_LONGEST_S = 1800.0  # of a jump test at the beginning of a test
+_OF_TEST = 0.2  # and of its length
+_TURNS_RPM = 20.0
+_BACK = 0.15  # of the largest step: what the steps of a probe add up to that comes back
+_LEAST_ROWS = 40
+_SHOWN = 4
+
+
+def window_behind_jumps(files: Sequence[RawFile]) -> str | None:
+    """What to ask of a test whose log begins with a jump test; None of another. files: of the test."""
+    for file in files:
+        first, last = file.sample.first_ns, file.sample.last_ns
+        if file.block is not None or first is None or last is None:
+            continue
+        length_s = (last - first) / 1e9
+        until_s = min(_rest_s(file, first), _LONGEST_S, _OF_TEST * length_s)
+        seen = {
+            s.name: end
+            for s in file.signals
+            if guess_of(s).quantity in ("displacement", "voltage")
+            and (end := _moved_until(file.sample.courses.get((s.stream, s.name)), first, until_s)) is not None
+        }
+        if seen:
+            end = math.ceil(max(seen.values()))
+            names = with_count([f"'{name}'" for name in seen], _SHOWN)
+            return (
+                f"window: {names} {'goes' if len(seen) == 1 else 'go'} up and down in steps in the first {end} s of "
+                f"{file.path}, as in a jump test? then window: [{end} s, {math.floor(length_s)} s], and under "
+                f"calibrations {{kind: jump, file: {file.path}, ...}}"
+            )
+    return None
+
+
+def _rest_s(file: RawFile, first_ns: int) -> float:
+    """How long the spindle stands, where the file says [s]."""
+    starts = [
+        float(course.t_ns[turning[0]] - first_ns) / 1e9
+        for s in file.signals
+        if guess_of(s).quantity == "rotational_speed"
+        and (course := file.sample.courses.get((s.stream, s.name))) is not None
+        and (turning := np.flatnonzero(np.abs(course.values) > _TURNS_RPM)).size
+    ]
+    return min(starts, default=math.inf)
+
+
+def _moved_until(course: Course | None, first_ns: int, until_s: float) -> float | None:
+    """When the last step of a probe ended that went in steps and came back [s]; None of another."""
+    if course is None:
+        return None
+    early = (course.t_ns - first_ns) / 1e9 < until_s
+    if np.count_nonzero(early) < _LEAST_ROWS:
+        return None
+    found = staircase(Course(course.t_ns[early], course.values[early]))
+    if found is None or not _comes_back(found[0]):
+        return None
+    return float(course.t_ns[early][0] - first_ns) / 1e9 + found[0][-1].to_s
+
+
+def _comes_back(steps: Sequence[Step]) -> bool:
+    sizes = [float(s.size) for s in steps]
+    return min(sizes) < 0 < max(sizes) and abs(sum(sizes)) < _BACK * max(map(abs, sizes))
