@@ -107,6 +107,7 @@ def test_an_id_that_the_store_has_of_another_folder_holds_more(tmp_path: Path, h
 
 def test_an_id_stays_where_a_folder_that_moved_is_drafted_anew(say: Say, tmp_path: Path) -> None:
     here = tmp_path / "hall/B3"
+    here.mkdir(parents=True)
     _logged(here, "time [s];T_spindle [degC]")
     say("init", here)
     assert id_of(here, {"B3": "/elsewhere/campaign.yaml"}) == "B3"

@@ -13,6 +13,7 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 from thermodata.schema.files.locate import located, placed
+from thermodata.schema.words.sentences import counted
 from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
@@ -24,6 +25,7 @@ from thermodata.store.ingest.known.inventory import Inventory, Row, generation_o
 from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.known.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.ingest.layers import Layers, make_layers
+from thermodata.store.ingest.other_reader import read_by_another, refuse_older_reader
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
@@ -123,6 +125,7 @@ def _ingest(
         inventory = _inventory(con, store, files, left, mark == earlier.kept.get("mark"))
     if not in_its_place and not earlier.holds(campaign.id, mark):
         refuse_another(inventory, files, path.absolute())
+    refuse_older_reader(inventory, files)
     layers = make_layers(files, inventory, left, now)
     rows = layers.rows(inventory, now)
     notes = layers.notes_of_tests(rows)
@@ -137,9 +140,11 @@ def _ingest(
         allowed = None if in_its_place else files
         summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now, allowed)
         summary.changed = True
-        summary.notes += taken_out(gone)
+        summary.notes += [*taken_out(gone), *read_by_another(inventory, rows["file"])]
         if summary.stale:
-            summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
+            one = len(summary.stale) == 1
+            models = counted(len(summary.stale), "fitted model", "is", "are")
+            summary.notes.append(f"{models} stale now: fit {'it' if one else 'them'} again")
     if not layers.raw.passing and given is None:
         of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
         parts = parts_of(rows, "") | {part: size for note in notes.values() for part, size in note.parts.items()}
