@@ -6,6 +6,8 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+from thermodata.store import Store
+
 from .conftest import Said, write_campaign
 
 Say = Callable[..., Said]
@@ -37,3 +39,14 @@ def test_init_says_that_another_campaign_has_the_folders_name(say: Say, campaign
     assert said.code == 0
     assert "its id is 'hall-small': the store holds another campaign 'small'" in said.err
     assert "\nid: hall-small" in (tmp_path / "hall/small/campaign.yaml").read_text()
+
+
+def test_a_fit_of_another_version_is_no_defect(say: Say, campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    with Store(store).write() as con:
+        con.execute("update model set result = json_merge_patch(result, '{\"newest_key\": 1}')")
+    said = say("--store", store, "history", "baseline")
+    assert said.code == 4
+    assert "defect" not in said.err
+    assert "another version of thermodata wrote it" in said.err
+    assert "newest_key" in said.err
