@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
+
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
+from thermodata.store.catalogue.findings import keep_answer
 
 from .conftest import Said, write_campaign
 
@@ -50,3 +55,24 @@ def test_a_fit_of_another_version_is_no_defect(say: Say, campaign: Path, tmp_pat
     assert "defect" not in said.err
     assert "another version of thermodata wrote it" in said.err
     assert "newest_key" in said.err
+
+
+@pytest.mark.parametrize("data", [True, False])
+def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_path: Path, data: bool) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    first = say("--store", store, "diagnose", "baseline", "--json")
+    assert "asked anew" not in first.err
+    found = Diagnosis.model_validate({k: v for k, v in json.loads(first.out).items() if k != "stale"})
+    claim = found.candidates[0].model_copy(update={"probability": 0.58})
+    changed = {"candidates": [claim, *found.candidates[1:]]} | ({"data_version": "other"} if data else {})
+    keep_answer(
+        Store(store), found.model, "diagnose", "of other rules", found.model_copy(update=changed).model_dump_json()
+    )
+    again = say("--store", store, "diagnose", "baseline", "--json")
+    assert again.out == first.out
+    (told,) = [line for line in again.err.splitlines() if "asked anew" in line]
+    assert "for the data changed since" in told if data else "for the rules of the diagnosis, the effects or" in told
+    assert "missing: " in told
+    assert "58 %" in told
+    keep_answer(Store(store), found.model, "diagnose", "of other rules", found.model_dump_json())
+    assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"
