@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.make import first_model, id_of
+from thermodata.draft.make import first_model
+from thermodata.draft.writing.own_id import id_of
 
 from .conftest import Said
 
@@ -87,3 +88,26 @@ def test_sensors_that_drive_nothing_are_counted_where_not_all_are_named(tmp_path
     )
     first_model(path)
     assert "T_11 and 4 more\n" in (tmp_path / "model.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("held", "name"),
+    [
+        ({"lathe": "/elsewhere/campaign.yaml"}, "B3"),
+        ({"B3": "/elsewhere/campaign.yaml"}, "hall-B3"),
+        ({"B3": "/elsewhere/campaign.yaml", "hall-B3": "/at/campaign.yaml"}, "B3-2"),
+        ({"B3": "", "hall-B3": "", "B3-2": ""}, "B3-3"),
+        ({"B3": "{here}/campaign.yaml"}, "B3"),
+    ],
+)
+def test_an_id_that_the_store_has_of_another_folder_holds_more(tmp_path: Path, held: dict[str, str], name: str) -> None:
+    here = tmp_path / "hall/B3/raw"
+    assert id_of(here, {i: path.format(here=here) for i, path in held.items()}) == name
+
+
+def test_an_id_stays_where_a_folder_that_moved_is_drafted_anew(say: Say, tmp_path: Path) -> None:
+    here = tmp_path / "hall/B3"
+    here.mkdir(parents=True)
+    _logged(here, "time [s];T_spindle [degC]")
+    say("init", here)
+    assert id_of(here, {"B3": "/elsewhere/campaign.yaml"}) == "B3"

@@ -111,6 +111,22 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     assert stale_line(store, again) is None
 
 
+def test_a_model_that_a_reader_made_stale_names_the_reader(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.raw import streams
+
+    store, model, edit = edited
+    with store.reader() as con:
+        (was,) = {v for (v,) in con.execute("select reader_version from source").fetchall()}
+    monkeypatch.setattr(streams.registry, "distribution_version", lambda name: "99.1")
+    assert edit("id: c\n", "id: c \n") == [model]
+    line = str(stale_line(store, model))
+    assert f"reader table {was} -> 99.1 of " in line
+    assert "(data" not in line
+    assert "calibration" not in line
+
+
 @pytest.mark.parametrize("target", ["st", "json"])
 def test_a_program_names_the_data_that_its_model_was_fitted_to(
     edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path, target: str

@@ -165,3 +165,32 @@ def test_a_vanished_file_that_would_be_read_otherwise_now_is_a_loss(filled: Stor
     assert len(reasons) == 1
     assert "other settings" in reasons[0]
     assert len(values(filled)) == 1200
+
+
+def test_a_newer_reader_is_told_and_the_logs_are_not_blamed(
+    filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(NpzReader, "version", "2")
+    summary = ingest(filled, campaign)
+    assert summary.read == 3  # one of them is that of both tests
+    (said,) = [note for note in summary.notes if "reader npz 1" in note]
+    assert "reader npz 1 -> 2: 4 logs were read anew by it, and are unchanged" in said
+    assert not any("reader npz" in note for note in ingest(filled, campaign).notes)
+
+
+def test_an_older_reader_is_refused_before_anything_is_written(
+    store: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(NpzReader, "version", "0.3.10")
+    ingest(store, campaign)
+    files = sorted(store.path.rglob("*.parquet"))
+    monkeypatch.setattr(NpzReader, "version", "0.3.9")
+    with pytest.raises(UsageError) as refused:
+        ingest(store, campaign)
+    told = str(refused.value)
+    assert "npz 0.3.10 or newer" in told
+    assert "npz 0.3.9" in told
+    assert "campaign.yaml:6" in told
+    assert sorted(store.path.rglob("*.parquet")) == files
+    monkeypatch.setattr(NpzReader, "version", "built here")  # nobody knows which came first
+    assert ingest(store, campaign).changed

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,9 +11,9 @@ from thermodata.draft.campaign.plan import plan
 from thermodata.draft.files.letters_of_files import encoding_declared_before
 from thermodata.draft.folder.scan import Progress, scan
 from thermodata.draft.times.zones_before import zones_before
-from thermodata.draft.words.naming import plain
 from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
+from thermodata.draft.writing.own_id import NOTHING_HELD, id_of
 from thermodata.draft.writing.seal import is_as_sealed
 from thermodata.draft.writing.write import questions_in, text_of
 from thermodata.errors import UsageError, unknown_name
@@ -22,18 +21,13 @@ from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 from thermodata.store.base.files import write_error, write_text
 
-# of a folder in which every campaign keeps its logs
-_SAYS_NOTHING = re.compile(
-    r"(?i)(raw|roh|log|mess|test)?[ _-]?(data|daten|logs?|files)|raw|messung(en)?|measurements?|mereni|měření|"
-    r"donnees|données|brutes|mesures|datos|mediciones|dati|misure|dados|dane|pomiary|csv|export|数据|原始数据|データ|测量数据"
-)
-
 
 @dataclass(frozen=True, slots=True)
 class Drafted:
     """campaign, model: the files that were written; model is None where no sensor allows one, or where one was there.
     no_model: what is missing for one, in words. kept: what was there before -> its new name. files: raw ones that a
-    reader reads; seen: with those that none does. questions: lines that hold one."""
+    reader reads; seen: with those that none does. questions: lines that hold one. id_taken: the id that it would have,
+    and the file of the other campaign that the store holds by it."""
 
     campaign: Path
     model: Path | None
@@ -43,12 +37,16 @@ class Drafted:
     seen: int
     questions: int
     no_model: str | None = None
+    id_taken: tuple[str, str] | None = None
 
 
-def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
+def draft_files(
+    folder: Path, *, force: bool = False, progress: Progress | None = None, held: Mapping[str, str] = NOTHING_HELD
+) -> Drafted:
     """force: a campaign file that is there becomes campaign.1.yaml, and the encoding and the zones that it declares
     are kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is
-    drafted too, with what would help. progress: is told (done, of, path)."""
+    drafted too, with what would help. progress: is told (done, of, path). held: id -> campaign file, of the campaigns
+    of the store that this one is for: it gets another id."""
     out = folder / "campaign.yaml"
     if out.exists() and not force:
         raise UsageError(
@@ -67,7 +65,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             got="nothing",
             hint="thermodata plugins lists what the installed readers read",
         )
-    draft = plan(id_of(folder), folder, found, zones_before(out))
+    name, plainly = id_of(folder, held), id_of(folder)
+    draft = plan(name, folder, found, zones_before(out))
     text, model = text_of(draft), model_text(draft)
     kept = [keep(out)]
     write_new(out, text)
@@ -89,19 +88,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         len({str(f.path) for f in found.logs}.union(draft.unused)),
         questions_in(text),
         missing_for_a_model(text, load_campaign(out)) if model is None else None,
+        None if name == plainly else (plainly, held[plainly]),
     )
-
-
-def id_of(folder: Path) -> str:
-    """The id of a folder's campaign: its name, or that of the nearest one above it that says more than 'raw'."""
-    path = folder.resolve()
-    named = next((p for p in (path, *path.parents) if p.name and not _SAYS_NOTHING.fullmatch(p.name)), path)
-    return re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(named.name)).strip("-._")[:100] or "campaign"
-
-
-def plain_name(text: str) -> str:
-    """A folder's name in plain letters, in any script."""
-    return text if text.isascii() else plain(text)
 
 
 def write_answered(path: Path, text: str) -> tuple[Path, bool]:

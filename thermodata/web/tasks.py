@@ -43,8 +43,10 @@ def fit(store: Path, tell: Tell, path: str) -> dict[str, Any]:
 def draft(store: Path, tell: Tell, folder: str) -> dict[str, Any]:
     """`thermodata init FOLDER`."""
     from thermodata.draft.make import draft_files
+    from thermodata.store.catalogue.campaign_paths import campaign_paths
 
-    made = draft_files(Path(folder), progress=lambda done, of, path: tell("files", done, of))
+    held = campaign_paths(store)
+    made = draft_files(Path(folder), progress=lambda done, of, path: tell("files", done, of), held=held)
     return {"questions": made.questions, "onward": _to("/start", file=str(made.campaign))}
 
 

@@ -12,6 +12,7 @@ from thermodata.cli.terminal.stored_model import resolve, with_stale
 from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
 
 if TYPE_CHECKING:
+    from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
 
 
@@ -38,8 +39,11 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     if found is not None:
         click.echo("from the store: model, data, effects and rules are as they were", err=True)
     else:
+        before = _answered_before(store, ref, response)
         with counting_line() as tell:
             found = diagnose(store, ref, tell, response)
+        if said := _said_otherwise(before, found):
+            click.echo(in_units_of(session, found.response, said), err=True)
     payload = with_stale(store, found.model, found)
     session.answer(payload, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
 
@@ -64,6 +68,34 @@ def confirm_command(session: Session, model: str, candidate: str, response: str 
         click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
     payload = with_stale(store, result.model, result)
     session.answer(payload, lambda: in_units_of(session, result.response, confirmed_text(result)))
+
+
+def _answered_before(store: Store, ref: str, response: str | None) -> Diagnosis | None:
+    """What the store holds of this question, whatever it was made from."""
+    from thermodata.schema.answers.diagnosis import Diagnosis
+    from thermodata.store.catalogue.document import read_document
+    from thermodata.store.catalogue.findings import kept_answer
+    from thermodata.store.catalogue.models import find_model
+
+    model = find_model(store, ref).model
+    kept = kept_answer(store, model, "diagnose" if response is None else f"diagnose {response}")
+    return None if kept is None else read_document(Diagnosis, kept, f"the diagnosis of {model}")
+
+
+def _said_otherwise(before: Diagnosis | None, now: Diagnosis) -> str | None:
+    """That an earlier answer to the same question was another one, and why; None where it said the same."""
+    from thermodata.report.verdict.verdict import verdict_sentence
+
+    if before is None or verdict_sentence(before) == verdict_sentence(now):
+        return None
+    if before.data_version is None:
+        why = "the data, the rules of the diagnosis or the effects"
+    elif before.data_version != now.data_version:
+        why = "the data"
+    else:
+        why = "the rules of the diagnosis, the effects or what is known of the locked tests"
+    head = verdict_sentence(before).partition("; ")[0]
+    return f"asked anew, for {why} changed since the store's answer, which was another one: {head}"
 
 
 def _say_what_was_open(store: Store, ref: str) -> None:

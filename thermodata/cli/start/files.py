@@ -48,8 +48,12 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from thermodata.draft.writing.write import one_line
     from thermodata.reader.finding.registry import failed_readers
     from thermodata.schema.words.sentences import counted
+    from thermodata.store.catalogue.campaign_paths import campaign_paths
 
-    made = draft_files(folder, force=force, progress=_progress(session))
+    made = draft_files(folder, force=force, progress=_progress(session), held=campaign_paths(session.store_path))
+    if made.id_taken is not None:
+        other, path = made.id_taken
+        session.say(f"its id is '{made.draft.campaign}': the store holds another campaign '{other}' ({path})")
     for before, after in made.kept:
         session.say(f"the {before.name} that was there is now {after}")
     if made.model is not None:

@@ -22,11 +22,15 @@ _MOSTLY = 0.5  # of the square of an uncertainty
 
 @command("ingest")
 @click.argument("campaign", type=click.Path(path_type=Path))
-def ingest_command(session: Session, campaign: Path) -> int:
+@click.option(
+    "--replace", is_flag=True, help="Take the tests and logs of another campaign with the same id out of the store."
+)
+def ingest_command(session: Session, campaign: Path, replace: bool) -> int:
     """Bring CAMPAIGN.yaml and its raw files into the store.
 
     Safe to repeat: files that did not change are not read again, and after an edit of the campaign file only
-    what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
+    what depends on the edit is made anew. A campaign of which the store holds another one by that id is refused.
+    Exit code 3 says that a part of a file could not be read.
     """
     from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.writing.baseline import model_text_of
@@ -36,7 +40,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
 
     store = store_for(session.store_path, campaign)
     with progress_line() as line:
-        summary = plain(ingest(store, campaign, progress=line).to_json())
+        summary = plain(ingest(store, campaign, progress=line, in_its_place=replace).to_json())
     session.answer(summary, lambda: ingest_text(summary, _labels(store, summary["stale"])))
     step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)))
     if step is not None:

@@ -10,6 +10,7 @@ from thermodata.errors import StoreError
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
+from thermodata.store.catalogue.document import read_document
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
             "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
             [model],
         )
-    return Diagnosis.model_validate_json(rows[0]["payload"]) if rows else None
+    return read_document(Diagnosis, rows[0]["payload"], f"the diagnosis of {model}") if rows else None
 
 
 def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     import duckdb
 
 # format -> the SQL that makes the next one of it
-STEPS: dict[int, str] = {}
+STEPS: dict[int, str] = {
+    1: "-- model.result and finding.payload have more keys from here on: what stands there is read as it is",
+}
 
 
 def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -> int:

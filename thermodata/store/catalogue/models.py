@@ -11,6 +11,7 @@ from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
+from thermodata.store.catalogue.document import read_document
 from thermodata.store.catalogue.prediction_files import write_prediction
 from thermodata.store.catalogue.renamed import renamed, with_names
 from thermodata.store.catalogue.store import Store
@@ -156,14 +157,14 @@ def model_chain(store: Store, model: str) -> list[StoredModel]:
 
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
     row = fetch(con, "select * from model where model = ?", [model])[0]
-    spec = Model.model_validate_json(row["spec"])
+    spec = read_document(Model, row["spec"], f"model {model}")
     names = renamed(con, spec.campaign_ids, model) if row["stale"] else {}
     return StoredModel(
         row["model"],
         row["name"],
         row["parent"],
         with_names(spec, names) if names else spec,
-        FitResult.model_validate_json(row["result"]),
+        read_document(FitResult, row["result"], f"the fit of {model}"),
         bool(row["stale"]),
         row["data_version"],
         names,

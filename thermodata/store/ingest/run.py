@@ -13,9 +13,11 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 from thermodata.schema.files.locate import located, placed
+from thermodata.schema.words.sentences import counted
 from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
+from thermodata.store.ingest.another_campaign import refuse_another
 from thermodata.store.ingest.catalogue_rows import calibration_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
 from thermodata.store.ingest.known.files_taken_out import files_taken_out
@@ -23,6 +25,7 @@ from thermodata.store.ingest.known.inventory import Inventory, Row, generation_o
 from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.known.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.ingest.layers import Layers, make_layers
+from thermodata.store.ingest.other_reader import read_by_another, refuse_older_reader
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
@@ -41,20 +44,23 @@ def ingest(
     campaign_path: Path | str,
     progress: Progress | Callable[[str], None] | None = None,
     campaign: Campaign | None = None,
+    *,
+    in_its_place: bool = False,
 ) -> IngestSummary:
     """Brings a campaign into the store: raw layer, calibrations, tidy layer, and then one commit.
 
     The same again changes nothing. After an edit of the campaign file only what the edit touches is made anew,
     and the source files need not be there any more. A file that can't be read is a loss and doesn't stop the
-    others. Raises SpecError for a wrong campaign file and CalibrationError for a contradictory calibration; then,
-    and when it is interrupted, the store stays as it was. progress: is told what is being done, and how far it is.
-    campaign: in place of a file's content; the path then says where its logs are.
+    others. Raises SpecError for a wrong campaign file, CalibrationError for a contradictory calibration, and UsageError
+    where the store holds another campaign with that id; then, and when it is interrupted, the store stays as it was.
+    progress: is told what is being done, and how far it is. campaign: in place of a file's content; the path then says
+    where its logs are. in_its_place: takes the tests and logs of another one with that id out.
     """
     watch = TextProgress(progress or (lambda _: None)) if progress is None or callable(progress) else progress
     every_test, attempts = False, _ATTEMPTS
     while True:
         try:
-            return _ingest(store, Path(campaign_path), watch, campaign, every_test)
+            return _ingest(store, Path(campaign_path), watch, campaign, every_test, in_its_place)
         except OtherwiseError:
             every_test = True  # which raises it no more, and is no attempt
         except UsageError as error:  # what only the files, or the plugins, show is wrong in the campaign file
@@ -97,7 +103,9 @@ def store_for(path: Path, campaign_path: Path) -> Store:
     return Store(path, create=True)
 
 
-def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool) -> IngestSummary:
+def _ingest(
+    store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool, in_its_place: bool
+) -> IngestSummary:
     """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
     began, now = time.monotonic(), utc_now()
     campaign = checked(path) if given is None else given
@@ -115,6 +123,9 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     left = left_alone(lines, files.tests_with(earlier.differs))
     with store.marked_reader() as (con, mark):
         inventory = _inventory(con, store, files, left, mark == earlier.kept.get("mark"))
+    if not in_its_place and not earlier.holds(campaign.id, mark):
+        refuse_another(inventory, files, path.absolute())
+    refuse_older_reader(inventory, files)
     layers = make_layers(files, inventory, left, now)
     rows = layers.rows(inventory, now)
     notes = layers.notes_of_tests(rows)
@@ -126,11 +137,14 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         summary = again
     else:
         mark = new_mark()
-        summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now)
+        allowed = None if in_its_place else files
+        summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now, allowed)
         summary.changed = True
-        summary.notes += taken_out(gone)
+        summary.notes += [*taken_out(gone), *read_by_another(inventory, rows["file"])]
         if summary.stale:
-            summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
+            one = len(summary.stale) == 1
+            models = counted(len(summary.stale), "fitted model", "is", "are")
+            summary.notes.append(f"{models} stale now: fit {'it' if one else 'them'} again")
     if not layers.raw.passing and given is None:
         of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
         parts = parts_of(rows, "") | {part: size for note in notes.values() for part, size in note.parts.items()}
@@ -163,6 +177,10 @@ class _Earlier:
     answer: IngestSummary | None
     differs: Collection[str] = ()
     lines: Mapping[str, str] = field(default_factory=dict)
+
+    def holds(self, campaign: str, mark: str) -> bool:
+        """Whether what the store holds under that id came from here, or was the same. mark: of its last commit."""
+        return bool(mark) and self.kept.get("mark") == mark and self.kept["summary"].get("campaign") == campaign
 
 
 def _look_back(files: CampaignFiles, path: Path, mark: str, noted_by_path: bool) -> _Earlier:
@@ -211,15 +229,19 @@ def _commit(
     changed: dict[str, set[str]],
     left: LeftAlone,
     now: datetime,
+    own: CampaignFiles | None,
 ) -> tuple[list[str], set[str]]:
     """(models gone stale, tests that were taken out). mark: of the commit; inventory: the state that the plan was made
-    from; changed: their `changes`. OtherwiseError where tests were left alone and another commit came meanwhile."""
+    from; changed: their `changes`; own: the files of the campaign, which takes no other one's place; None where it may.
+    OtherwiseError where tests were left alone and another commit came meanwhile."""
     campaign = planned.campaign
     with store.write(mark=mark) as con:
         if generation_of(con) != inventory.generation:
             if left.tests:
                 raise OtherwiseError("another commit")
             inventory = read_inventory(con, None, campaign.id)
+            if own is not None:
+                refuse_another(inventory, own, planned.path)
             changed = changes(planned, inventory)
         stale = commit(con, store.path, planned, inventory, changed, now)
     return stale, changed["test"] - {t.id for t in campaign.tests}

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 
 from thermodata.store.base.files import key_of
 from thermodata.store.catalogue.models import GONE
 from thermodata.store.catalogue.renamed import CHANNELS, origins
-from thermodata.store.ingest.known.inventory import Row, comparable
+from thermodata.store.ingest.known.inventory import Row, meta_of
 
 Rows = Mapping[str, Mapping[str, Sequence[Row]]]
 State = Mapping[str, str]
@@ -29,6 +30,10 @@ _NAMED = {
     "units or signals": ("channel", ("source", "signal", "quantity", "unit", "raw_unit"), None),
 }
 _NAMES = "channel names"
+# not compared: why data differ that are of the same logs
+_LOGS, _READERS = "logs", "readers"
+# of a calibration, what a fit reads
+_GAINS = ("calibration", "kind", "axis", "gain", "gain_unit", "offset_value", "sign", "uncertainty_pct", "crosstalk")
 _DESCRIPTION = "description"  # said where none of these differs
 
 
@@ -55,7 +60,7 @@ def version_of(rows: Rows, test: str) -> str:
 
 def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[str, State | None]:
     """Test -> its state; None where it is not there. calibrations: of the campaign."""
-    calibrated = key_of(*comparable(calibrations))
+    calibrated = key_of(*sorted(repr([row[c] for c in _GAINS]) for row in calibrations))
 
     def of(test: str) -> State | None:
         if not rows["test"].get(test):
@@ -69,11 +74,15 @@ def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[
             for word, (table, columns, layer) in _NAMED.items()
         }
         named["calibration"] += calibrated
+        raw = [r for r in rows["file"].get(test, []) if r["layer"] == "raw"]
+        readers = {(meta_of(r)["reader"], meta_of(r)["reader_version"]) for r in raw}
         channels = origins(rows["channel"].get(test, []))
         return {
             VERSION: version_of(rows, test),
             **named,
             CHANNELS: channels,
+            _LOGS: key_of(*sorted({repr((r["source"], r["source_path"], r["sha256"])) for r in raw})),
+            _READERS: json.dumps(sorted(readers)),
             _DESCRIPTION: key_of(*_read_by_fits(rows, test)),
         }
 
@@ -81,10 +90,26 @@ def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[
 
 
 def what_differs(then: State, now: State | None) -> list[str]:
-    """In words: gone, role, calibration, data, units or signals, channel names, description, or else how it is read."""
+    """In words: gone, role, calibration, data, reader, units or signals, channel names, description, or else how it is
+    read."""
     if now is None:
         return [GONE]
     found = [word for word in _NAMED if then.get(word) != now.get(word)]
+    if "data" in found and (other := _other_readers(then, now)):
+        found[found.index("data")] = other
     if CHANNELS in then and then[CHANNELS] != now.get(CHANNELS) and "units or signals" not in found:
         found.append(_NAMES)
     return found or [_DESCRIPTION if then.get(_DESCRIPTION) != now.get(_DESCRIPTION) else _ELSE]
+
+
+def _other_readers(then: State, now: State) -> str | None:
+    """'reader table 0.3.1 -> 0.3.2', where the logs are the same."""
+    if _LOGS not in then or then[_LOGS] != now.get(_LOGS):
+        return None
+    was, is_now = (dict(json.loads(state[_READERS])) for state in (then, now))
+    other = [
+        f"{name} {was[name]} -> {is_now[name]}"
+        for name in sorted(was)
+        if is_now.get(name, "") != was[name] and name in is_now
+    ]
+    return f"reader {', '.join(other)}" if other else None

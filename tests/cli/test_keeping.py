@@ -1,0 +1,78 @@
+"""Keeping a store that others use, too: ids of campaigns, and what another version has left in it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.store import Store
+from thermodata.store.catalogue.findings import keep_answer
+
+from .conftest import Said, write_campaign
+
+Say = Callable[..., Said]
+
+
+def test_a_colleagues_campaign_of_the_same_id_is_refused_or_replaced_on_demand(
+    say: Say, campaign: Path, tmp_path: Path
+) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    theirs = write_campaign(tmp_path / "messung")
+    theirs.write_text(theirs.read_text().replace('id: "138"', "id: HMC01"))
+    for log in (tmp_path / "messung/raw").iterdir():
+        log.write_text(log.read_text() + "21600.0000,1.0,21.0,21.0,21.0,0.0,0.0\n")
+    said = say("--store", store, "ingest", theirs)
+    assert said.code == 2
+    assert said.out == ""
+    assert "machine 138" in said.err
+    assert "heat1" in said.err
+    assert "--replace" in said.err
+    assert '"138"' in say("--store", store, "sql", "select distinct machine from machine", "--json").out
+    assert say("--store", store, "ingest", theirs, "--replace").code == 0
+    assert "HMC01" in say("--store", store, "sql", "select distinct machine from machine", "--json").out
+
+
+def test_init_says_that_another_campaign_has_the_folders_name(say: Say, campaign: Path, tmp_path: Path) -> None:
+    write_campaign(tmp_path / "hall/small")
+    (tmp_path / "hall/small/campaign.yaml").unlink()
+    said = say("--store", campaign / "thermodata.store", "init", tmp_path / "hall/small")
+    assert said.code == 0
+    assert "its id is 'hall-small': the store holds another campaign 'small'" in said.err
+    assert "\nid: hall-small" in (tmp_path / "hall/small/campaign.yaml").read_text()
+
+
+def test_a_fit_of_another_version_is_no_defect(say: Say, campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    with Store(store).write() as con:
+        con.execute("update model set result = json_merge_patch(result, '{\"newest_key\": 1}')")
+    said = say("--store", store, "history", "baseline")
+    assert said.code == 4
+    assert "defect" not in said.err
+    assert "another version of thermodata wrote it" in said.err
+    assert "newest_key" in said.err
+
+
+@pytest.mark.parametrize("data", [True, False])
+def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_path: Path, data: bool) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    first = say("--store", store, "diagnose", "baseline", "--json")
+    assert "asked anew" not in first.err
+    found = Diagnosis.model_validate({k: v for k, v in json.loads(first.out).items() if k != "stale"})
+    claim = found.candidates[0].model_copy(update={"probability": 0.58})
+    changed = {"candidates": [claim, *found.candidates[1:]]} | ({"data_version": "other"} if data else {})
+    keep_answer(
+        Store(store), found.model, "diagnose", "of other rules", found.model_copy(update=changed).model_dump_json()
+    )
+    again = say("--store", store, "diagnose", "baseline", "--json")
+    assert again.out == first.out
+    (told,) = [line for line in again.err.splitlines() if "asked anew" in line]
+    assert "for the data changed since" in told if data else "for the rules of the diagnosis, the effects or" in told
+    assert "missing: " in told
+    assert "58 %" in told
+    keep_answer(Store(store), found.model, "diagnose", "of other rules", found.model_dump_json())
+    assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"

@@ -1,0 +1,112 @@
+"""A campaign with the id of another one that the store holds is refused; the same one may move and be edited."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from store_fakes import CAMPAIGN, daq, write_campaign, write_log
+
+from thermodata.errors import UsageError
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+OTHERS = CAMPAIGN.replace('"138"', '"HMC01"')
+
+
+def others(folder: Path, text: str = OTHERS) -> Path:
+    """A colleague's campaign of the same id: other logs of another machine, but for the control's."""
+    path = write_campaign(folder, text)
+    for i, log in enumerate(sorted(folder.glob("raw/*_a.npz"))):
+        write_log(log, daq(seed=50 + i))
+    return path
+
+
+def held(store: Store) -> list[tuple[object, ...]]:
+    with store.reader() as con:
+        return con.execute("select path, sha256, added_at from file order by all").fetchall()
+
+
+def test_another_campaign_of_that_id_is_refused_before_anything_is_written(filled: Store, tmp_path: Path) -> None:
+    campaign = others(tmp_path / "messung")
+    before, files = held(filled), sorted(filled.path.rglob("*"))
+    with pytest.raises(UsageError) as refused:
+        ingest(filled, campaign)
+    told = str(refused.value)
+    assert "another campaign with the id 'shop'" in told
+    assert "campaign.yaml:3" in told
+    assert "machine 138" in told
+    assert "lab/campaign.yaml" in told
+    assert "2 tests: one, two" in told
+    assert "shop-HMC01" in told
+    assert "--replace" in told
+    assert held(filled) == before
+    assert sorted(filled.path.rglob("*")) == files
+
+
+def test_no_test_in_common_is_another_campaign_of_the_same_machine_too(filled: Store, tmp_path: Path) -> None:
+    text = CAMPAIGN.replace("id: one", "id: june").replace("id: two", "id: july")
+    folder = tmp_path / "messung"
+    write_log(folder / "raw/june_a.npz", daq(seed=70))
+    with pytest.raises(UsageError, match="another campaign"):
+        ingest(filled, write_campaign(folder, text, logs=False))
+
+
+def test_it_takes_the_place_where_that_is_said(filled: Store, tmp_path: Path) -> None:
+    summary = ingest(filled, others(tmp_path / "messung"), in_its_place=True)
+    assert summary.changed
+    assert summary.read == 2
+    with filled.reader() as con:
+        assert con.execute("select distinct machine from machine").fetchall() == [("HMC01",)]
+
+
+def test_one_that_comes_meanwhile_is_not_replaced(
+    store: Store, campaign: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.ingest import run
+
+    made, mine = run.make_layers, others(tmp_path / "messung")
+
+    def slow(*given: object) -> object:
+        monkeypatch.setattr(run, "make_layers", made)
+        ingest(store, campaign)
+        return made(*given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(run, "make_layers", slow)
+    with pytest.raises(UsageError, match="another campaign"):
+        ingest(store, mine)
+    with store.reader() as con:
+        assert con.execute("select distinct machine from machine").fetchall() == [("138",)]
+
+
+@pytest.mark.parametrize("logs", [True, False])
+def test_one_that_moved_and_whose_machine_is_renamed_goes_on(
+    filled: Store, campaign: Path, tmp_path: Path, logs: bool
+) -> None:
+    moved = shutil.copytree(campaign.parent, tmp_path / "archive")
+    path = moved / "campaign.yaml"
+    path.write_text(OTHERS)
+    if not logs:
+        shutil.rmtree(moved / "raw")
+    assert ingest(filled, path).read == 0
+
+
+def test_one_at_the_same_place_may_change_its_tests_one_by_one(filled: Store, campaign: Path) -> None:
+    ingest(filled, campaign)  # it is there now, and not where the store was made
+    for test, seed in (("one", 81), ("two", 82)):
+        write_log(campaign.parent / f"raw/{test}_a.npz", daq(seed=seed))
+        assert ingest(filled, campaign).read == 1
+    campaign.write_text(campaign.read_text().replace("id: one", "id: three"))
+    write_log(campaign.parent / "raw/three_a.npz", daq(seed=83))
+    assert ingest(filled, campaign).read == 1
+    campaign.write_text(campaign.read_text().replace("id: two", "id: four"))
+    write_log(campaign.parent / "raw/four_a.npz", daq(seed=84))
+    assert ingest(filled, campaign).tests == 2
+
+
+def test_one_that_was_forgotten_leaves_its_id(filled: Store, tmp_path: Path) -> None:
+    from thermodata.store.keep.lifecycle import forget
+
+    forget(filled, "shop")
+    assert ingest(filled, others(tmp_path / "messung")).tests == 2
