@@ -25,7 +25,7 @@ from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
 from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.two_units import with_both_units
-from thermodata.draft.signals.values import Values, in_unit, joined, least_reading
+from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
