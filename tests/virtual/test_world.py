@@ -20,7 +20,7 @@ from thermodata.virtual.levers import own_um
 @pytest.fixture(scope="module")
 def worlds(once: Callable[[str, Callable[[Path], object]], Path]) -> dict[str, World]:
     def make(folder: Path) -> None:
-        made = {hide: make_world(hide, 7, hours=6.0) for hide in HIDEABLE}
+        made = {hide: make_world(hide, 7) for hide in HIDEABLE}
         (folder / "worlds").write_bytes(pickle.dumps(made))
 
     read: dict[str, World] = pickle.loads((once("worlds", make) / "worlds").read_bytes())
@@ -92,7 +92,7 @@ def test_the_dataset_is_complete(worlds: dict[str, World]) -> None:
     assert {t.role for t in data.tests} == {"calibration", "verification", "locked"}
     for test in data.tests:
         assert set(test.values) == set(data.channels)
-        assert all(len(v) == len(test.t_s) == 360 for v in test.values.values())
+        assert all(len(v) == len(test.t_s) == 720 for v in test.values.values())
         response = test.values["dZ"]
         np.testing.assert_array_equal(np.isfinite(response), test.valid["dZ"])
         assert np.all(np.diff(test.t_s) == 60.0)
