@@ -303,3 +303,19 @@ def test_a_start_between_rows_that_count_on_changes_nothing(tmp_path: Path) -> N
     _, start, notes, minutes = read(tmp_path, head, rows)
     assert (start, minutes) == (SEVEN, list(range(40)))
     assert not any("anew" in n for n in notes)
+
+
+@pytest.mark.parametrize(("day", "hour"), [("2026-03-29", 1), ("2026-10-25", 2)])
+def test_seconds_from_a_start_skip_and_repeat_no_hour(tmp_path: Path, day: str, hour: int) -> None:
+    """A logger that counts does not follow the clock on the wall; times of day may."""
+    seconds = [NUMBERS[0], *(f"{60 * i}.0;20.{i % 9};21.0" for i in range(200))]
+    head = [f"Start: {day} {hour:02d}:30:00"]
+    _, _, notes, minutes = read(tmp_path, head, seconds, zone="Europe/Paris")
+    assert minutes == list(range(200))
+    assert not any("skips" in n or "daylight saving" in n for n in notes)
+
+
+def test_times_of_day_that_run_on_where_clocks_change_are_refused(tmp_path: Path) -> None:
+    clocks = [CLOCKS[0], *(f"{1 + (30 + i) // 60:02d}:{(30 + i) % 60:02d}:00;2{i % 9}.5;20.0" for i in range(200))]
+    with pytest.raises(FormatError, match="run straight on"):
+        read(tmp_path, ["Datum: 2026-03-29"], clocks, zone="Europe/Paris")
