@@ -102,7 +102,7 @@ def test_a_start_is_read_as_people_write_it(tmp_path: Path, line: str) -> None:
         "Start: Montag früh, 02.03.2026",
         "Messbeginn: 2.3. 07:00",
         "Start: 02.03.2026 07:00 bis 09:00",
-        "Test date: 02.03.2026 shift 2",
+        "Test date: 02.03.2026 07:00, shift 2",
     ],
 )
 def test_a_start_that_is_not_read_is_told(tmp_path: Path, line: str) -> None:
@@ -112,6 +112,13 @@ def test_a_start_that_is_not_read_is_told(tmp_path: Path, line: str) -> None:
     assert not any("is read" in n for n in read(tmp_path, [line], NUMBERS, "none")[2])
     with pytest.raises(FormatError, match="can't be taken"):
         read(tmp_path, [line], NUMBERS, "head")
+
+
+def test_a_mere_date_beside_other_words_is_told_of_times_of_day_alone(tmp_path: Path) -> None:
+    """Seconds from a start don't begin at midnight."""
+    head = ["Date: 02.03.2026 / J. Kramer"]
+    assert not any("is read" in n for n in read(tmp_path, head, NUMBERS)[2])
+    assert any("is read" in n for n in read(tmp_path, head, CLOCKS)[2])
 
 
 def test_a_start_of_nobody_knows_what_is_asked_and_taken_where_it_is_declared(tmp_path: Path) -> None:
