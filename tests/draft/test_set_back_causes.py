@@ -32,3 +32,24 @@ def test_the_cause_is_told(tmp_path: Path, start: datetime, row: int, back: time
     assert f"clock goes backwards by {by} (from {times[row - 1]} to {times[row]}); " in loss["reason"]
     assert cause in loss["reason"] or cause.startswith("was the clock")
     assert " ns" not in loss["reason"]
+
+
+@pytest.mark.parametrize(
+    ("first", "row", "cause", "by"),
+    [
+        ("10:00", 180, "a clock of 12 hours", "11 h 59 min (from 12:59:00 to 01:00:00)"),
+        ("10:20", 180, "was the clock set back", "11 h 59 min (from 13:19:00 to 01:20:00)"),
+    ],
+)
+def test_the_cause_is_told_of_times_of_day_without_dates(
+    tmp_path: Path, first: str, row: int, cause: str, by: str
+) -> None:
+    begin = datetime.fromisoformat(f"2026-03-22T{first}")
+    times = [begin + timedelta(minutes=k) - (timedelta(hours=12) if k >= row else timedelta()) for k in range(400)]
+    rows = [f"{t:%H:%M:%S},{20 + k / 100:.2f}" for k, t in enumerate(times)]
+    (tmp_path / "a.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]))
+    (source,) = draft_files(tmp_path).draft.sources
+    (asked,) = [q for q in source.questions if "goes back" in q]
+    assert f"goes back by {by}" in asked
+    assert cause in asked
+    assert ("resets: allow" in asked) is (cause == "was the clock set back")

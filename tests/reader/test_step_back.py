@@ -33,6 +33,11 @@ def test_from_when_to_when_is_told_on_the_clock_of_the_file() -> None:
     assert said(a, b, absolute=True, local=True) == "59 min (from 2026-10-25 02:59:00 to 2026-10-25 02:00:00)"
     assert said(a, b, absolute=True, local=False).endswith("to 2026-10-25 02:00:00 UTC)")
     assert said(7200 * 10**9, 0, absolute=False, local=False) == "2 h (from 2 h after its start to 0 s after its start)"
+    assert (
+        said(0, -7200 * 10**9, absolute=False, local=False) == "2 h (from 0 s after its start to 2 h before its start)"
+    )
+    ten = 36_000 * 10**9
+    assert said(7200 * 10**9, 0, False, False, ten) == "2 h (from 12:00:00 to 10:00:00)"
 
 
 @pytest.mark.parametrize(

@@ -78,6 +78,29 @@ def test_a_line_that_announces_the_names_is_no_head_of_groups(tmp_path: Path, li
     assert not any(p for s in Reader().describe(path, Source()).signals for p in s.properties)
 
 
+@pytest.mark.parametrize(
+    ("lines", "unit"),
+    [
+        (["%% columns: t[s]  dX[um]  dY[um]  Tair[C]"], "um"),
+        (["# Data columns: t[s]  dX[um]  dY[um]  Tair[C]"], "um"),
+        (["Spalten:\tt[s]\tdX[um]\tdY[um]\tTair[C]"], "um"),
+        (["%% columns: t  dX[um]  dY[um]  Tair[C]", "%% units: s um um C"], "um"),
+    ],
+)
+def test_what_a_row_of_names_is_called_names_no_column(tmp_path: Path, lines: list[str], unit: str) -> None:
+    path, mark = tmp_path / "drift.txt", "\t" if "\t" in lines[0] else "   "
+    rows = [mark.join((f"{20 * i}.0", f"0.{i % 9}00", f"0.{i % 7}10", f"26.{i:02d}")) for i in range(40)]
+    path.write_text("\n".join(["%% start: 2026-05-06 08:00:00", *lines, *rows, ""]))
+    assert read(path)[0] == {"dX[um]": unit, "dY[um]": unit, "Tair[C]": "C"}
+
+
+def test_other_lines_with_a_label_stay_lines(tmp_path: Path) -> None:
+    path = tmp_path / "drift.txt"
+    rows = [f"   {20 * i}.0   0.{i % 9}00   0.{i % 7}10" for i in range(40)]
+    path.write_text("\n".join(["%% machine: MC7 hall two", "t[s] dX[um] dY[um]", *rows, ""]))
+    assert read(path)[0] == {"dX[um]": "um", "dY[um]": "um"}
+
+
 def test_heads_behind_the_mark_of_a_comment_stay_heads(tmp_path: Path) -> None:
     path = tmp_path / "log.csv"
     rows = [f"{20 * i}.0;2{i % 9}.5;21.{i % 7};26.{i:02d};22.5" for i in range(40)]

@@ -102,7 +102,7 @@ def test_a_start_is_read_as_people_write_it(tmp_path: Path, line: str) -> None:
         "Start: Montag früh, 02.03.2026",
         "Messbeginn: 2.3. 07:00",
         "Start: 02.03.2026 07:00 bis 09:00",
-        "Test date: 02.03.2026 shift 2",
+        "Test date: 02.03.2026 07:00, shift 2",
     ],
 )
 def test_a_start_that_is_not_read_is_told(tmp_path: Path, line: str) -> None:
@@ -112,6 +112,13 @@ def test_a_start_that_is_not_read_is_told(tmp_path: Path, line: str) -> None:
     assert not any("is read" in n for n in read(tmp_path, [line], NUMBERS, "none")[2])
     with pytest.raises(FormatError, match="can't be taken"):
         read(tmp_path, [line], NUMBERS, "head")
+
+
+def test_a_mere_date_beside_other_words_is_told_of_times_of_day_alone(tmp_path: Path) -> None:
+    """Seconds from a start don't begin at midnight."""
+    head = ["Date: 02.03.2026 / J. Kramer"]
+    assert not any("is read" in n for n in read(tmp_path, head, NUMBERS)[2])
+    assert any("is read" in n for n in read(tmp_path, head, CLOCKS)[2])
 
 
 def test_a_start_of_nobody_knows_what_is_asked_and_taken_where_it_is_declared(tmp_path: Path) -> None:
@@ -303,3 +310,19 @@ def test_a_start_between_rows_that_count_on_changes_nothing(tmp_path: Path) -> N
     _, start, notes, minutes = read(tmp_path, head, rows)
     assert (start, minutes) == (SEVEN, list(range(40)))
     assert not any("anew" in n for n in notes)
+
+
+@pytest.mark.parametrize(("day", "hour"), [("2026-03-29", 1), ("2026-10-25", 2)])
+def test_seconds_from_a_start_skip_and_repeat_no_hour(tmp_path: Path, day: str, hour: int) -> None:
+    """A logger that counts does not follow the clock on the wall; times of day may."""
+    seconds = [NUMBERS[0], *(f"{60 * i}.0;20.{i % 9};21.0" for i in range(200))]
+    head = [f"Start: {day} {hour:02d}:30:00"]
+    _, _, notes, minutes = read(tmp_path, head, seconds, zone="Europe/Paris")
+    assert minutes == list(range(200))
+    assert not any("skips" in n or "daylight saving" in n for n in notes)
+
+
+def test_times_of_day_that_run_on_where_clocks_change_are_refused(tmp_path: Path) -> None:
+    clocks = [CLOCKS[0], *(f"{1 + (30 + i) // 60:02d}:{(30 + i) % 60:02d}:00;2{i % 9}.5;20.0" for i in range(200))]
+    with pytest.raises(FormatError, match="run straight on"):
+        read(tmp_path, ["Datum: 2026-03-29"], clocks, zone="Europe/Paris")

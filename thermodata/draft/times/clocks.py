@@ -11,7 +11,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
-from thermodata.reader.times.step_back import in_words, likely_cause, said
+from thermodata.reader.times.step_back import cause_of, in_words, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
@@ -105,12 +105,13 @@ def set_back_question(group: Group) -> str | None:
         if any("resets: allow" in a.ask for a in file.asked):
             continue
         absolute = file.recording.clock == "absolute"
-        cause = likely_cause(back.from_ns, back.to_ns, file.local) if absolute else None
+        of_day = file.recording.of_day_ns
+        cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day)
         asked = (
             "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the "
             "file"
         )
-        by = said(back.from_ns, back.to_ns, absolute, file.local)
+        by = said(back.from_ns, back.to_ns, absolute, file.local, of_day)
         return (
             f"the clock of {file.path.name} goes back by {by} at row {back.row}, and what follows is lost: "
             f"{cause or asked}"

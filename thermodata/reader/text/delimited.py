@@ -123,9 +123,10 @@ def describe(table: Table, source: Source) -> Recording:
             of_day = reader.clocks[0].days.first_ns
     if table.begin is not None:
         notes.append(table.begin.note())
-        notes += _anew_notes(table, source)
     else:
         notes += _of_day_notes(table, source)
+    if table.begin is not None or not table.absolute:
+        notes += _notes_of_counts(table, source)
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
     below = [
@@ -145,16 +146,18 @@ def describe(table: Table, source: Source) -> Recording:
     )
 
 
-def _anew_notes(table: Table, source: Source) -> list[str]:
-    """What is told of further heads with a start of their own, as far as the file was sampled."""
+def _notes_of_counts(table: Table, source: Source) -> list[str]:
+    """What is told of rows that count from a start, as far as the file was sampled: further heads with a start of their
+    own, and a counter that begins anew."""
     reader = RowReader(table, source, 1)
-    lines = (table.sample.head[table.layout.first :], table.sample.rest)
-    starts = {}
-    for some in lines:
+    starts: dict[str, None] = {}
+    for some in (table.sample.head[table.layout.first :], table.sample.rest):
         for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, False)):
             pass
         starts.update({begin.text: None for begin in reader.anew})
-    return [f"times count anew from the start in a further head: '{text}'" for text in starts]
+    notes = [f"times count anew from the start in a further head: '{text}'" for text in starts]
+    timed = [(c.timed.group.time, c.counter) for c in reader.clocks]
+    return notes + [note for time, c in timed if time and (note := c.note(table.layout.names[time[0]])) is not None]
 
 
 def _of_day_notes(table: Table, source: Source) -> list[str]:
@@ -195,6 +198,8 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     notes = []
     if table.zone is not None and {before, after} != {utc_offset_ns(table.zone[0], start // 10**9)}:
         notes.append(f"the line above the rows says '{table.zone[1][:60]}'; the declared {source.timezone} is used")
+    if table.begin is not None and not table.begin.of_day:  # seconds from a start skip and repeat no hour
+        return notes
     lines = [*table.sample.head[table.layout.first :], *table.sample.rest]
     near = skips_between(source.timezone, start, max([start, *ends]))
     local = _local_times(table, source, lines) if near else []

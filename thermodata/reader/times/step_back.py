@@ -19,19 +19,28 @@ def in_words(ns: int) -> str:
     return " ".join(f"{n} {unit}" for n, unit in parts if n)
 
 
-def said(before_ns: int, at_ns: int, absolute: bool, local: bool) -> str:
+def said(before_ns: int, at_ns: int, absolute: bool, local: bool, of_day_ns: int | None = None) -> str:
     """By how much it went back, and from when to when: on the clock of the file where that is local and names no zone
-    (local), else in UTC; from the start of a file without dates."""
-    return (
-        f"{in_words(before_ns - at_ns)} (from {moment(before_ns, absolute, local)} to {moment(at_ns, absolute, local)})"
-    )
+    (local), else in UTC; of a file without dates by its time of day (of_day_ns: at its start), or from its start."""
+    first, then = (moment(ns, absolute, local, of_day_ns) for ns in (before_ns, at_ns))
+    return f"{in_words(before_ns - at_ns)} (from {first} to {then})"
 
 
-def moment(ns: int, absolute: bool, local: bool) -> str:
-    """A time of a file; absolute, local: as of `said`."""
+def moment(ns: int, absolute: bool, local: bool, of_day_ns: int | None = None) -> str:
+    """A time of a file; absolute, local, of_day_ns: as of `said`."""
+    if not absolute and of_day_ns is not None:
+        return str(np.timedelta64((ns + of_day_ns) // _S % (24 * 3600), "s").astype("datetime64[s]"))[-8:]
     if not absolute:
-        return f"{in_words(ns) or '0 s'} after its start"
+        return f"{in_words(ns) or '0 s'} {'before' if ns < 0 else 'after'} its start"
     return str(np.datetime64(ns // _S, "s")).replace("T", " ") + ("" if local else " UTC")
+
+
+def cause_of(before_ns: int, at_ns: int, absolute: bool, local: bool, of_day_ns: int | None) -> str | None:
+    """The likely cause for a file, by its dates, or by the times of day that it tells without; absolute, local,
+    of_day_ns: as of `said`. None where nothing tells."""
+    if absolute:
+        return likely_cause(before_ns, at_ns, local)
+    return None if of_day_ns is None else likely_cause(before_ns + of_day_ns, at_ns + of_day_ns, local=False)
 
 
 def likely_cause(before_ns: int, at_ns: int, local: bool) -> str | None:

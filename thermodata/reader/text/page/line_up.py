@@ -16,6 +16,13 @@ from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import is_time_header, says_time
 
 _MARK = re.compile(r"[#%;!*]{1,3}|//+|--+")  # of a comment, as a word of its own
+_LONGEST_LABEL = 4  # words, and the mark, of what a row of names is called
+_LABEL = re.compile(r"(?:[#%;!*/-]{1,3} ?)?[^\W\d][\w ]*:")
+_OF_COLUMNS = re.compile(
+    r"(?i)\b(?:columns?|names?|fields?|header|channels?|signals?|variables?|units?|einheit(?:en)?|spalten(?:namen)?|"
+    r"kanäle|signale|colonnes?|colonne|columnas|colunas|unités?|unità|unidades|sloupce|jednotky|kolumny|jednostki|"
+    r"kolommen|列|列名|单位|単位)\b"
+)
 NUMBERED = "the header names one column fewer than there are: the first holds the numbers of the rows"
 
 
@@ -44,10 +51,11 @@ def line_up(
     """The rows above the data with their cells over their columns, and how they were put there; None where they stand
     so, or nothing tells where they belong. rows: of data; width: their cells; blanks: part them, so that a sentence is
     no row of names."""
-    marked = [len(r) == width + 1 and _MARK.fullmatch(str(r[0]).strip()) is not None for r in above]
-    bare = [list(r[1:]) if mark else list(r) for r, mark in zip(above, marked, strict=True)]
+    marked = [_before_names(r, width) for r in above]
+    bare = [list(r[many:]) for r, many in zip(above, marked, strict=True)]
     place = place_of_names(bare, width, units_row)
-    whole = Fit(width + 1, tuple((i + 1,) for i in range(width))) if any(marked) else None
+    lead = max(marked, default=0)
+    whole = Fit(width + lead, tuple((i + lead,) for i in range(width))) if lead else None
     names = [] if place is None else texts_of(bare[place])
     if place is None or not any(names):
         return bare, whole
@@ -64,6 +72,17 @@ def line_up(
         return bare, whole
     fit = Fit(len(names), fit.of, fit.note)
     return [fit.over(r) for r in bare], fit
+
+
+def _before_names(row: Sequence[Cell], width: int) -> int:
+    """How many cells stand before the first of as many names as there are columns: the mark of a comment, or what the
+    row is called, '%% columns:'. 0 of another row."""
+    many = len(row) - width
+    if not 0 < many <= _LONGEST_LABEL:
+        return 0
+    said = " ".join(texts_of(row[:many])).strip()
+    label = _LABEL.fullmatch(said)
+    return many if (many == 1 and _MARK.fullmatch(said)) or (label and _OF_COLUMNS.search(said)) else 0
 
 
 def _fit(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int, width: int, blanks: bool) -> Fit | None:

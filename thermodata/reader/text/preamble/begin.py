@@ -118,7 +118,7 @@ def find_begin(
     if declared == NOT:
         return None, None
     order = declared if declared in ORDERS else None
-    said, unread = head_start(lines, order, booted=declared is not None), unread_start(lines, order)
+    said, unread = head_start(lines, order, booted=declared is not None), unread_start(lines, order, first.of_day)
     begin = None if said is None else _begin(said, first, sure=declared is None)
     if begin is None and declared == HEAD and (said is not None or unread is not None):
         raise _not_taken(said, unread, where)

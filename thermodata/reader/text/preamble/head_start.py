@@ -16,7 +16,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
 from thermodata.reader.text.cells.zone_words import WORDS, offset_ns
 from thermodata.reader.text.preamble.head_words import Says, said_by
-from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, with_month
+from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, tells_the_hour, with_month
 from thermodata.reader.text.preamble.zone_places import without_places
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_letters import with_clock
@@ -57,10 +57,12 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Unread:
-    """A line that names a start or a date, and whose moment can't be read whole. says, text: as of `Moment`."""
+    """A line that names a start or a date, and whose moment can't be read whole. says, text: as of `Moment`; timed:
+    whether a time of day stands in it, too."""
 
     says: Says
     text: str
+    timed: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,10 +112,11 @@ def _of_two(date: Moment, clock: Moment) -> Says:
     return high if high is Says.BEGAN and low >= Says.BARE else min(low, Says.BARE)
 
 
-def unread_start(lines: Sequence[Sequence[str]], order: str | None = None) -> Unread | None:
+def unread_start(lines: Sequence[Sequence[str]], order: str | None = None, dates: bool = False) -> Unread | None:
     """The surest of the lines above a table that name a start or a date, and whose moment can't be read; None where
-    all are read. order: as of `head_start`."""
-    each = [m for cells in lines for m in _moments(cells, order) if isinstance(m, Unread) and m.says > Says.MADE]
+    all are read. order: as of `head_start`; dates: whether a mere date would say when the rows began."""
+    every = [m for cells in lines for m in _moments(cells, order) if isinstance(m, Unread) and m.says > Says.MADE]
+    each = [m for m in every if dates or m.timed or m.says is Says.BEGAN]
     return max(each, key=lambda m: m.says, default=None)
 
 
@@ -148,7 +151,7 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
         if found is not None:
             yield found
         elif names_a_moment(rest := " ".join([*values, *left[k + 1 : k + _MOST_CELLS]]), says is Says.BEGAN):
-            yield Unread(says, f"{label}: {rest}")
+            yield Unread(says, f"{label}: {rest}", tells_the_hour(rest))
         k += 1 + used
 
 

@@ -114,6 +114,11 @@ def names_a_moment(text: str, started: bool) -> bool:
     return _date_in(text)[0] is not None or (started and _CLOCKS[0].search(text) is not None)
 
 
+def tells_the_hour(text: str) -> bool:
+    """Whether a time of day stands in a text, beside a date or alone."""
+    return _clock_in(_date_in(" ".join(text.split())[:_LONGEST])[1])[1]
+
+
 def with_month(label: str, value: str) -> tuple[str, str]:
     """(label, value) with the name of a month that ends the label before the value: 'Started on March', '2, 2026'."""
     bare, _, word = label.rpartition(" ")

@@ -8,6 +8,8 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.arrow import values
+from thermodata.reader.text.cells.number import Values
+from thermodata.reader.text.clocks.wrapped_counter import Counter
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.table import TimedGroup
@@ -31,6 +33,7 @@ class RowClock:
         self.days = self._new_days()
         self.joined_days = Days()
         self.counted = 0
+        self.counter = Counter()
         self._first: int | None = None
         self.anew: dict[
             int, Begin
@@ -110,6 +113,12 @@ class RowClock:
             self.counted += int((~words).sum()) + lost.size
         return np.where(words, NAT, ns)
 
+    def _since(self, cells: Values, peek: bool) -> Int1D:
+        """Numbers of one unit as times from their zero."""
+        counts, each = cells.values.astype(np.float64), self.timed.group.seconds or 1.0
+        on = self.counter.gone_on(np.where(cells.empty, np.nan, counts), peek)
+        return to_ns(on if self.counter.times else cells.values, each)
+
     def _written(self, rows: Rows, peek: bool) -> Int1D:
         group = self.timed.group
         if have_days(self.timed.formats):
@@ -117,7 +126,7 @@ class RowClock:
         if not self.timed.formats:
             cells = rows.columns[group.time[0]]
             if self.epoch is None:
-                return to_ns(cells.values, group.seconds or 1.0)
+                return self._since(cells, peek)
             ns: Int1D = self.epoch.ns(cells.values)
             if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
                 ns[cells.empty] = NAT

@@ -52,6 +52,16 @@ def _is_of(row: Mapping[str, Any], source: str, stream: str | None) -> bool:
     return bool(row["source"] == source and row["stream"] == stream)
 
 
+def run_through(ends: Mapping[str, Mapping[str, LogEnds]]) -> set[str]:
+    """The sources with one and the same log in several tests, of which each has a part: it begins there at one time,
+    though pauses are known of the part alone. ends: of each test."""
+    begins: dict[str, list[float]] = defaultdict(list)
+    for of_test in ends.values():
+        for source, own in of_test.items():
+            begins[source].append(own.first)
+    return {source for source, each in begins.items() if len(set(each)) < len(each)}
+
+
 def pairs(rows: Rows) -> Iterator[tuple[str, str, dict[str, tuple[float, float]]]]:
     """(one source, another, test -> by how much the one begins and ends later [s]); but for logs that run through all
     tests, which end with none of them."""

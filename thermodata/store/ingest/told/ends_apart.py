@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from thermodata.schema.words.sentences import with_count
-from thermodata.store.ingest.told.ends import ends_of
+from thermodata.store.ingest.told.ends import ends_of, run_through
 
 LEAST_S = 300.0  # for so long a driver is carried on at its ends without a word
 _NAMED = 6
@@ -14,11 +14,13 @@ _NAMED = 6
 
 def ends_apart(rows: Mapping[str, Iterable[Mapping[str, Any]]], responses: Collection[str]) -> list[str]:
     """A sentence for each two sources and each end. rows: test -> its rows of the table `source`. responses: the
-    sources of displacements, which a log of drivers has to last as long as."""
+    sources of displacements, which a log of drivers has to last as long as, but for one that runs through several
+    tests and is cut to each of them."""
     found: dict[tuple[str, str, str], list[str]] = {}
-    for test, of_test in rows.items():
-        ends = ends_of(of_test)
-        of = [s for s in ends if s in responses]
+    of_tests = {test: ends_of(of_test) for test, of_test in rows.items()}
+    measured = set(responses) - run_through(of_tests)
+    for test, ends in of_tests.items():
+        of = [s for s in ends if s in measured]
         if not of:
             continue
         last, first = max(of, key=lambda s: ends[s].last), min(of, key=lambda s: ends[s].first)

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.reader.times.newest_first import Steps
-from thermodata.reader.times.step_back import likely_cause, said
+from thermodata.reader.times.step_back import cause_of, said
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
@@ -83,11 +83,11 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
     steps = Steps()
     steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
     at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
-    absolute = line.raws[0][0].clock == "absolute"
+    absolute, of_day = line.raws[0][0].clock == "absolute", line.raws[0][0].of_day_ns
     local = absolute and any(NO_ZONE in note for note in line.raws[0][0].notes)
     if steps.in_no_order:
         advice = "rows stand in no order of their times: sort the file by them"
-    elif (cause := likely_cause(before, at, local) if absolute else None) is not None:
+    elif (cause := cause_of(before, at, absolute, local, of_day)) is not None:
         advice = cause
     else:
         advice = "split the test there or set clock: {resets: allow}"
@@ -96,5 +96,5 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
         from_ns=at,
         to_ns=int(line.file_times(n - 1, n)[0]),
         fraction=(n - keep) / n,
-        reason=f"clock goes backwards by {said(before, at, absolute, local)}; {advice}",
+        reason=f"clock goes backwards by {said(before, at, absolute, local, of_day)}; {advice}",
     )
