@@ -93,6 +93,7 @@ def test_a_row_of_comments_is_known_in_other_languages(word: str) -> None:
     ],
 )
 def test_a_list_of_channels_that_numbers_them(first: str, second: str, described: dict[str, str]) -> None:
-    head = ["N°;Nom;Description;Unité", first, second, "", "Temps (s);AI 1 (°C);AI 2 (µm)"]
-    rows = [f"{i};21.{i:02d};{i}.5" for i in range(40)]
+    names = "Temps (s);AI 1 (°C);AI 2 (µm);AI 3 (°C);AI 4 (°C);AI 5 (°C)"
+    head = ["Fichier;E1.dxd", "N°;Nom;Description;Unité", first, second, names]
+    rows = [f"{i}.0;21.{i:02d};{i}.5;21.5;22.5;23.5" for i in range(40)]
     assert said(find_layout(list(csv.reader([*head, *rows], delimiter=";")), None, "here")) == described
