@@ -61,9 +61,9 @@ def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[R
     for path in texts:
         head: list[str] = []
         for line in _with_headings(text_of_notes(folder, path).splitlines(), called):
-            if "|" not in line and (said := statements(line, called)):
-                for test, rest in said:
-                    shared.setdefault(test, []).append(_note(path, rest))
+            if "|" not in line and (several := statements(line, called)):
+                for name, told in several:
+                    shared.setdefault(name, []).append(_note(path, told))
                 continue
             cells = [c.strip() for c in line.strip(" |").split("|")] if "|" in line else []
             first, rest = _first(line) if len(cells) < 2 else (cells[0].casefold(), ", ".join(cells[1:]))
