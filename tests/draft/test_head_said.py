@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.draft.make import draft_files
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.head_said import with_text
 from thermodata.draft.signals.values import values_of
@@ -128,3 +129,31 @@ def test_a_text_beside_the_signals_that_says_a_unit_is_asked(text: str, asked: s
     assert (said.quantity, said.unit) == ("rotational_speed", "rpm")
     questions = " ".join(said.questions)
     assert asked in questions if asked else "says" not in questions
+
+
+@pytest.mark.parametrize(
+    ("head", "quantity", "unit"),
+    [
+        ("Units: microinch", "displacement", "uin"),
+        ("Units: um", "displacement", "um"),
+        ("Units: see manual", None, None),
+        ("Operator: Miller", None, None),
+    ],
+)
+def test_a_signal_whose_name_says_nothing_is_drafted_by_the_one_unit_of_the_head(
+    tmp_path: Path, head: str, quantity: str | None, unit: str | None
+) -> None:
+    rows = [f"{k}\t{np.sin(k / 9) * 40:.1f}\t{np.cos(k / 7) * 9:.1f}" for k in range(120)]
+    lines = ["Spindle Error Analyzer", head, "", "Elapsed (min)\tZ\tX1", *rows, ""]
+    (tmp_path / "run1.txt").write_text("\n".join(lines), encoding="utf-8")
+    found = {c.signal: c.said for c in draft_files(tmp_path).draft.channels}
+    assert {(s.quantity, s.unit) for s in found.values()} == {(quantity, unit)}
+    if quantity:
+        assert any(q.startswith(f"unit: {unit}?, the head of the file says '{head}'") for q in found["Z"].questions)
+
+
+def test_what_is_said_of_an_array_is_asked_of_each_of_its_elements() -> None:
+    properties = {"array description": "five probes, gap in nm"}
+    signal = Signal("/nest.gap[3]", "/nest", properties=properties)
+    found = with_text(guess_of(signal, values_of(np.linspace(2.4e5, 3.0e5, 300))), signal)
+    assert any("the file's array description says 'five probes, gap in nm'" in q for q in found.questions)

@@ -72,3 +72,28 @@ def test_a_row_of_comments_above_the_names_describes_the_columns() -> None:
 def test_a_comment_on_the_whole_file_describes_no_column() -> None:
     assert said(table(HIOKI.format(comments='"Warmlauf mit 3000"'), HIOKI_ROW)) == {}
     assert said(table("Comment,warm-up\nTime,T1\n", "2026-02-09 21:{at},22.5")) == {}
+
+
+@pytest.mark.parametrize("word", ["コメント", "注释", "Commentaire", "Kommentar"])
+def test_a_row_of_comments_is_known_in_other_languages(word: str) -> None:
+    head = HIOKI.replace('"Comment",{comments}', f'"{word}","主軸前軸受","モータ","変位Z"')
+    assert said(table(head, HIOKI_ROW)) == {
+        "U1-1[°C]": "主軸前軸受",
+        "U1-2[°C]": "モータ",
+        "U1-3[°C]": "変位Z",
+    }
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "described"),
+    [
+        ("1;AI 1;Palier avant;°C", "2;AI 2;Capteur Z;µm", {"AI 1 (°C)": "Palier avant", "AI 2 (µm)": "Capteur Z"}),
+        ("a;AI 1;Palier avant;°C", "b;AI 2;Capteur Z;µm", {}),  # what the first cells say is not known
+        ("1;AI 1;Palier avant;°C", "2;AI 9;Capteur Z;µm", {}),  # of one, it may be anything
+    ],
+)
+def test_a_list_of_channels_that_numbers_them(first: str, second: str, described: dict[str, str]) -> None:
+    names = "Temps (s);AI 1 (°C);AI 2 (µm);AI 3 (°C);AI 4 (°C);AI 5 (°C)"
+    head = ["Fichier;E1.dxd", "N°;Nom;Description;Unité", first, second, names]
+    rows = [f"{i}.0;21.{i:02d};{i}.5;21.5;22.5;23.5" for i in range(40)]
+    assert said(find_layout(list(csv.reader([*head, *rows], delimiter=";")), None, "here")) == described

@@ -266,7 +266,7 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
         said = replace(said, questions=(*said.questions, asked))
     if any(heads):
-        said, note = with_head(said, signal, note, heads)
+        said, note = with_head(said, signal, note, heads, values)
     said = with_scale_asked(with_text(said, next(iter(own_signals.values()), signal)), own_signals or {"": signal})
     if STATE_OF in signal.properties and said.quantity != "state":
         asked = (

@@ -103,9 +103,9 @@ def calibration_of(
     if jump is None:
         asked = "calibration? a jump test, or kind: scale with a gain in um/V"
         return None, replace(said, sure=False, questions=(*said.questions, asked))
-    if (asked := question_between(name, said.unit or "V", jump, jumps)) is not None:
+    if (between := question_between(name, said.unit or "V", jump, jumps)) is not None:
         others = (q for q in said.questions if q != "axis?")
-        said = replace(said, quantity="voltage", axis=None, at=None, sure=False, questions=(*others, asked))
+        said = replace(said, quantity="voltage", axis=None, at=None, sure=False, questions=(*others, between))
         return None, said
     return _drafted(name, signal, said, jump, calibrations)
 

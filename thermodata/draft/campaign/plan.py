@@ -28,6 +28,7 @@ from thermodata.draft.folder.notes import described_in, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
 from thermodata.draft.folder.packed_pieces import packed_pieces
+from thermodata.draft.folder.saved_twice import saved_once
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.sensor_files import with_their_sensors
 from thermodata.draft.folder.sources import Group, sources_of
@@ -57,7 +58,7 @@ NO_ZONES = ZonesBefore()
 def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONES) -> Draft:
     """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
-    found = lists_apart(folder, found)
+    found = saved_once(lists_apart(folder, found))
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, legends = with_legends(folder, found)

@@ -6,11 +6,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.archive.unpacked import held
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.statements import statements
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
 from thermodata.errors import FormatError
@@ -56,9 +57,14 @@ def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[Ra
 def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
     called = _but_numbers(tests) | {name: test for test, files in tests.items() for name in _names(test, files)}
     lines: dict[str, list[Note]] = {}
+    shared: dict[str, list[Note]] = {}  # of lines that name several
     for path in texts:
         head: list[str] = []
         for line in _with_headings(text_of_notes(folder, path).splitlines(), called):
+            if "|" not in line and (several := statements(line, called)):
+                for name, told in several:
+                    shared.setdefault(name, []).append(_note(path, told))
+                continue
             cells = [c.strip() for c in line.strip(" |").split("|")] if "|" in line else []
             first, rest = _first(line) if len(cells) < 2 else (cells[0].casefold(), ", ".join(cells[1:]))
             test = called.get(first)
@@ -66,10 +72,18 @@ def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[R
                 rest = ", ".join(f"{h} {c}" for h, c in zip(head[1:], cells[1:], strict=True) if c)
             head = cells if len(cells) > 1 and not head else head if len(cells) > 1 else []
             if test is not None and rest:
-                pieces = [p.strip() for p in re.split(r"[,;|\t]", rest)]
-                more = {k: v for k, v in said_by(pieces).conditions.items() if k in _TAKEN}
-                lines.setdefault(test, []).append(Note(path, {**more, **tool_and_coolant(pieces)}, rest[:_SHOWN]))
-    return {test: notes[0] for test, notes in lines.items() if len(notes) == 1}
+                lines.setdefault(test, []).append(_note(path, rest))
+    alone, beside = ({t: n[0] for t, n in found.items() if len(n) == 1} for found in (lines, shared))
+    for test in beside.keys() & lines.keys():
+        own = alone.get(test)
+        beside[test] = replace(own, quoted=f"{own.quoted}; {beside[test].quoted}") if own else beside[test]
+    return alone | beside
+
+
+def _note(path: str, said: str) -> Note:
+    pieces = [p.strip() for p in re.split(r"[,;|\t]", said)]
+    more = {k: v for k, v in said_by(pieces).conditions.items() if k in _TAKEN}
+    return Note(path, {**more, **tool_and_coolant(pieces)}, said[:_SHOWN])
 
 
 def text_of_notes(folder: Path, path: str) -> str:

@@ -26,6 +26,7 @@ from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfini
 from thermodata.draft.folder.lent_names import with_lent_names
 from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
 from thermodata.draft.folder.packed_copies import by_archive, packed_copies
+from thermodata.draft.folder.settings import settings_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.files.stores import within_stores
@@ -76,7 +77,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     no_lists = {str(p) for p in (*copies, *unfinished, *beginnings)}  # a log is no list of tests
     return Scan(
         with_lent_names(folder, sorted(sampled, key=lambda f: position[str(f.path)])),
-        tuple(ignored),
+        (*ignored, *settings_in(folder)),
         tuple(damaged),
         tuple(dict.fromkeys(p for p, _ in ignored if p not in no_lists)),
         tuple(failed),

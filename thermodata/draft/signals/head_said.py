@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.guess import called, guess, told_of
+from thermodata.draft.signals.quantity import NOTHING, Guess
+from thermodata.draft.signals.values import Values
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
@@ -19,11 +22,12 @@ _LENGTHS_AND_HEAT = ("temperature", "temperature_difference", "displacement", "p
 
 
 def with_head(
-    said: Guess, signal: Signal, note: str | None, heads: Mapping[str, Sequence[str]]
+    said: Guess, signal: Signal, note: str | None, heads: Mapping[str, Sequence[str]], values: Values | None = None
 ) -> tuple[Guess, str | None]:
     """The guess with the head's words in its question of the unit, or with such a question where the head says another
     unit than was taken, or those of several files differ; and the note of a channel in volts with them. heads: what
-    they say, '' for nothing -> the files."""
+    they say, '' for nothing -> the files; values: of a sample."""
+    said = _by_head(said, signal, heads, values)
     line = next(filter(None, heads))
     told = f"the head of the file says '{line}'"
     possible = {frozenset(u for u in units_in(text) if _fits(u, said.quantity)) for text in heads}
@@ -49,11 +53,24 @@ def with_head(
     return said, "; ".join(filter(None, (note, told)))
 
 
+def _by_head(said: Guess, signal: Signal, heads: Mapping[str, Sequence[str]], values: Values | None) -> Guess:
+    """The guess by the one unit that all heads say, asked, where a signal's name and values say no quantity: 'Z' under
+    'Units: microinch'."""
+    units = {unit for text in heads for unit in units_in(text)} if "" not in heads else set()
+    if said.quantity is not None or signal.unit or not (said.why_not or "").startswith(NOTHING) or len(units) != 1:
+        return said
+    unit = units.pop()
+    found = guess(called(signal), unit, signal.dtype, values, told_of(signal))
+    if found.quantity is None:
+        return said
+    return replace(found, sure=False, questions=(f"unit: {unit}?", *found.questions))
+
+
 def with_text(said: Guess, signal: Signal) -> Guess:
     """The same of a text beside the signals of a file that says units of them: a MAT file's `info`, "n in 1/s"."""
     if signal.unit is not None or said.quantity in (None, "state", "label"):
         return said
-    name = parts_of(signal.name)[-1]
+    name = re.sub(r"\[\d+\]$", "", parts_of(signal.name)[-1])  # an array is told of as a whole
     for key, text in signal.properties.items():
         own = unit_of(text, name) if key != HEAD and " in " in text else None
         if own is None or not _fits(own, said.quantity):

@@ -16,6 +16,7 @@ from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.units.spelling import bare_unit, is_of_humidity
 
 NO_READING = "no reading"  # begins what is said of a column that nobody need be asked about
+NOTHING = "quantity and unit?"  # begins what is asked of a signal of which neither name nor values say anything
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 _DELTA = re.compile(r"(?:d|δ) ?t(?:emp)?\b")  # 'dT_front', which begins at 0
 _NO_HALL_C = 10.0  # colder than any machine that stands in a hall
@@ -227,7 +228,7 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         )
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
         return Guess("state", basis=("name",))
-    return Guess(None, why_not=f"quantity and unit? ({range_text(values)})")
+    return Guess(None, why_not=f"{NOTHING} ({range_text(values)})")
 
 
 def range_text(values: Values | None) -> str:

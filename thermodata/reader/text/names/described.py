@@ -23,8 +23,8 @@ def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[l
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
     rows = rows[: names_at(rows, names)]
-    listed = _listed(rows, names)
-    said, units = _of_list(rows, listed, names)
+    key_at, listed = _listed(rows, names)
+    said, units = _of_list(rows, key_at, listed, names)
     heads = {min(at for at, _ in listed) - 1} if listed else set()
     for at, row in enumerate(rows):
         if at not in heads and not any(said):
@@ -52,25 +52,36 @@ def _of_row(row: Sequence[str], names: Sequence[str]) -> list[str]:
     return said if sum(map(bool, said)) >= max(_FEWEST, len(names) // 2) else nothing
 
 
-def _listed(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[tuple[int, str]]:
-    """(place of a row, the column that it lists) of the rows that begin with the name of one: "CH1","Front","TEMP"."""
+def _listed(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[int, list[tuple[int, str]]]:
+    """(which cell of a row names a column, [(place of a row, the column that it lists)]): "CH1","Front","TEMP", or
+    behind a number of its own, "1","AI 1","Bearing"; there each is listed once, and is no number itself."""
     known = {_key(n) for n in names if n}
-    return [(at, key) for at, row in enumerate(rows) if len(row) > 1 and row[0] and (key := _key(row[0])) in known]
+    for k in (0, 1):
+        found = [
+            (at, key) for at, row in enumerate(rows) if len(row) > k + 1 and row[k] and (key := _key(row[k])) in known
+        ]
+        if k == 0 and found:
+            return 0, found
+        counted = all(rows[at][0].strip(" .").isdigit() for at, _ in found)
+        if counted and len(found) >= _FEWEST and len({key for _, key in found}) == len(found):
+            return k, found
+    return 0, []
 
 
 def _of_list(
-    rows: Sequence[Sequence[str]], listed: Sequence[tuple[int, str]], names: Sequence[str]
+    rows: Sequence[Sequence[str]], key_at: int, listed: Sequence[tuple[int, str]], names: Sequence[str]
 ) -> tuple[list[str], list[str | None]]:
     said: Mapping[str, str] = {}
     units: Mapping[str, str | None] = {}
     if listed:
         first = listed[0][0]
         header = rows[first - 1] if first else ()
-        column = next((k for k, c in enumerate(header) if k and _OF_NAMES.fullmatch(c.strip(" .:"))), None)
-        said = {key: rows[at][column or 1] if len(rows[at]) > (column or 1) else "" for at, key in listed}
+        column = next((k for k, c in enumerate(header) if k > key_at and _OF_NAMES.fullmatch(c.strip(" .:"))), None)
+        told = column or key_at + 1
+        said = {key: rows[at][told] if len(rows[at]) > told else "" for at, key in listed}
         if column is None and (len(said) < _FEWEST or len(set(said.values())) < len(said)):
             said = {}  # what repeats is a kind of input
-        of_unit = next((k for k, c in enumerate(header) if k and OF_UNITS.fullmatch(c.strip(" .:"))), -1)
+        of_unit = next((k for k, c in enumerate(header) if k > key_at and OF_UNITS.fullmatch(c.strip(" .:"))), -1)
         units = {key: _unit(rows[at], of_unit) for at, key in listed}
     return (
         [_said(said.get(_key(n), ""), n) if n else "" for n in names],

@@ -12,7 +12,11 @@ from thermodata.reader.text.names.units_row import STATISTIC, mostly_units
 from thermodata.schema.units.quantity import converts, is_unit
 
 # what loggers write before a row that describes the columns
-OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
+OF_TEXTS = re.compile(
+    r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch|commentaire|libellé|"
+    r"désignation|descrizione|commento|descripción|comentario|omschrijving|opmerking|popis|opis|komentarz|komentář|"
+    r"コメント|名称|信号名|チャンネル名|注释|备注|信号名称|通道名称|설명|이름"
+)
 
 
 def is_label(cell: str) -> bool:

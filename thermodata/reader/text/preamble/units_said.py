@@ -22,7 +22,14 @@ OTHERS = re.compile(r"(?i)\b(?:fahrenheit|inch(?:es)?|imperial|deg\.? ?f)\b|[Â°Â
 _IN = re.compile(r"(?P<name>[^\W\d]\w*)(?: in |: ?)(?P<unit>[^\s,;]+)")
 _LONGEST, _MOST = 80, 2
 _PARTS = re.compile(r"[\s:;,=()\[\]'\"]+")
-_WORDS = {"fahrenheit": "degF", "celsius": "degC", "kelvin": "K", "inch": "inch", "inches": "inch", "imperial": "inch"}
+_WORDS = {
+    "fahrenheit": "degF",
+    "celsius": "degC",
+    "kelvin": "K",
+    "inch": "inch",
+    "inches": "inch",
+    "imperial": "inch",
+} | dict.fromkeys(("microinch", "microinches"), "uin")
 
 
 def units_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping[str, str]:

@@ -204,7 +204,7 @@ def _two_units(found: Found, channel: Channel) -> str | None:
     by = found.signal.unit
     return (
         f"the name '{found.signal.name}' says {own}, and the file gives it in {by}, which is taken; try: "
-        f"unit: \"{by}\" in the channel, or, where the name is right, unit: \"{own}\", instead_of: \"{by}\""
+        f'unit: "{by}" in the channel, or, where the name is right, unit: "{own}", instead_of: "{by}"'
     )
 
 

@@ -12,6 +12,7 @@ from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.json.text import loads
 from thermodata_reader_mcap.encodings.topic import Hint
 
+OF_ARRAY = "array description"  # the property of an element: what a schema says of all of them
 _UNIT_KEYS = ("unit", "units", "x-unit", "x-units")
 
 
@@ -33,10 +34,11 @@ class JsonDecoder:
 
     def hint(self, path: Path) -> Hint | None:
         """What the JSON Schema says of a path; None where it says nothing."""
-        node = self.schema
+        node, of_array = self.schema, None
         for part in path:
             if not isinstance(node, Mapping):
                 return None
+            of_array = node.get("description") if isinstance(part, int) else None
             inner = node.get("items") if isinstance(part, int) else node.get("properties")
             node = inner if isinstance(part, int) else inner.get(part) if isinstance(inner, Mapping) else None
         if not isinstance(node, Mapping):
@@ -46,6 +48,8 @@ class JsonDecoder:
             kind = next((k for k in kind if k != "null"), None)
         unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
         said = {k: node[k] for k in node if k == "description" and isinstance(node[k], str)}
+        if isinstance(of_array, str) and not said:
+            said[OF_ARRAY] = of_array
         bare = {k.removeprefix("x-"): v for k, v in node.items()}
         said |= {k: str(v) for k, v in bare.items() if states_scale(k) and isinstance(v, str | int | float)}
         return Hint(kind if isinstance(kind, str) else None, unit, tuple(said.items()))

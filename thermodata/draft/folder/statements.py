@@ -1,0 +1,50 @@
+"""What one line of notes says of several tests: 'P1, P2: calibration; P3: verification'."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+_MARKS = " \t-*•#>"
+_BETWEEN = re.compile(r"\s*(?:[,&+/]|\b(?:and|und|en|et|e|y|i|a|og|och)\b|[、和及])\s*", re.IGNORECASE)
+# names with what stands between them, at the end of a text
+_NAMES = re.compile(rf"[^\s,;:&+、]+(?:(?:{_BETWEEN.pattern})[^\s,;:&+、]+)*\s*$", re.IGNORECASE)
+_ENDS = ".;,|。；，–-"  # what may stand before the next names
+_TRIM = " \t;,.。；，=-–"
+
+
+def statements(line: str, called: Mapping[str, str]) -> list[tuple[str, str]]:
+    """(test, what is said of it), where a line names several tests, each with a colon behind it or behind them all;
+    empty for a line of one. called: name in small letters -> test."""
+    text = line.strip().strip(_MARKS)
+    heads: list[tuple[int, int, list[str]]] = []
+    for colon in re.finditer(r"[:：]", text):
+        begin = heads[-1][1] if heads else 0
+        names = _NAMES.search(text[begin : colon.start()])
+        if names is None:
+            continue
+        # of what stands there the last words that are all names
+        found, at = list[str](), begin + names.start()
+        pieces = _pieces(names[0])
+        while pieces and pieces[-1][1] in called:
+            offset, name = pieces.pop()
+            found.insert(0, called[name])
+            at = begin + names.start() + offset
+        before = text[:at].rstrip()
+        if found and (not before or before[-1] in _ENDS):
+            heads.append((at, colon.end(), found))
+    if sum(len(tests) for _, _, tests in heads) < 2:
+        return []
+    ends = [at for at, _, _ in heads[1:]] + [len(text)]
+    said = [(tests, text[behind:end].strip(_TRIM)) for (_, behind, tests), end in zip(heads, ends, strict=True)]
+    return [(test, rest) for tests, rest in said if rest for test in tests]
+
+
+def _pieces(names: str) -> list[tuple[int, str]]:
+    """(where it stands, name in small letters) of names with something between them."""
+    found, at = [], 0
+    for between in [*_BETWEEN.finditer(names), None]:
+        end = len(names) if between is None else between.start()
+        found.append((at, names[at:end].strip(" '\"`").casefold()))
+        at = end if between is None else between.end()
+    return found
