@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -76,3 +79,25 @@ def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_p
     assert "58 %" in told
     keep_answer(Store(store), found.model, "diagnose", "of other rules", found.model_dump_json())
     assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"
+
+
+def test_a_campaign_without_a_test_is_traced_by_its_tests(say: Say, campaign: Path) -> None:
+    said = say("--store", campaign / "thermodata.store", "trace", "small")
+    assert said.code == 2
+    assert "'small' is a campaign" in said.err
+    assert "heat1, heat2, day1 and day2" in said.err or "heat1, heat2, day1, day2" in said.err
+    assert "thermodata trace small heat1" in said.err
+    assert "no model 'smal'" in say("--store", campaign / "thermodata.store", "trace", "smal").err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+@pytest.mark.parametrize("words", [["sql", "from range(300000)", "--csv"], ["--help"]])
+def test_a_reader_who_has_read_enough_is_no_failure(tmp_path: Path, words: list[str]) -> None:
+    Store(tmp_path / "s", create=True)
+    # who writes finds the pipe closed, as behind `| head -1`
+    reads, writes = os.pipe()
+    os.close(reads)
+    command = [sys.executable, "-m", "thermodata", "--store", str(tmp_path / "s"), *words]
+    done = subprocess.run(command, stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writes)
+    assert (done.returncode, done.stderr) == (0, "")
