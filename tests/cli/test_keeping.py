@@ -101,3 +101,19 @@ def test_a_reader_who_has_read_enough_is_no_failure(tmp_path: Path, words: list[
     done = subprocess.run(command, stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
     os.close(writes)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("query", "told"),
+    [
+        ("select id from test", 'test.test is its name; thermodata sql "describe test"'),
+        ("select c.id from campaign c", "campaign.campaign is its name"),
+        ("select id from temperature", 'thermodata sql "describe temperature" lists its columns'),
+    ],
+)
+def test_an_unknown_column_is_answered_with_where_the_names_stand(
+    say: Say, campaign: Path, query: str, told: str
+) -> None:
+    said = say("--store", campaign / "thermodata.store", "sql", query)
+    assert said.code == 2
+    assert told in said.err
