@@ -117,3 +117,40 @@ def test_an_unknown_column_is_answered_with_where_the_names_stand(
     said = say("--store", campaign / "thermodata.store", "sql", query)
     assert said.code == 2
     assert told in said.err
+
+
+@pytest.mark.parametrize(
+    ("words", "usage", "told", "not_told"),
+    [
+        (["plugins", "show"], "plugins show [OPTIONS] [NAME]", "equation", "reader-NAME"),
+        (["plugins", "new"], "plugins new [OPTIONS] [NAME]", "reader-NAME", "equation"),
+        (["model", "export"], "model export [OPTIONS] MODEL", "--to", "export]"),
+        (["plugins"], "plugins [OPTIONS] [show|new] [NAME]", "equation", "Structured"),
+    ],
+)
+def test_an_action_has_its_own_help(say: Say, words: list[str], usage: str, told: str, not_told: str) -> None:
+    said = say(*words, "--help")
+    assert (said.code, said.err) == (0, "")
+    assert f"thermodata {usage}" in said.out
+    assert told in said.out
+    assert not_told not in said.out
+
+
+def test_an_unknown_model_is_answered_with_those_that_are_there(say: Say, campaign: Path, tmp_path: Path) -> None:
+    said = say("--store", campaign / "thermodata.store", "history", "nix")
+    assert "expected: baseline" in said.err
+    assert "thermodata models lists" in said.err
+    Store(tmp_path / "s", create=True)
+    assert "thermodata fit MODEL.yaml" in say("--store", tmp_path / "s", "history", "nix").err
+
+
+def test_one_stale_model_is_one(say: Say, campaign: Path, tmp_path: Path) -> None:
+    own = shutil.copytree(campaign, tmp_path / "own")
+    file = own / "campaign.yaml"
+    file.write_text(
+        file.read_text().replace(
+            "id: heat2, kind: mixed, role: calibration", "id: heat2, kind: mixed, role: verification"
+        )
+    )
+    said = say("--store", own / "thermodata.store", "ingest", file)
+    assert "1 fitted model is stale now: fit it again" in said.out
