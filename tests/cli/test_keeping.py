@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -76,3 +79,78 @@ def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_p
     assert "58 %" in told
     keep_answer(Store(store), found.model, "diagnose", "of other rules", found.model_dump_json())
     assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"
+
+
+def test_a_campaign_without_a_test_is_traced_by_its_tests(say: Say, campaign: Path) -> None:
+    said = say("--store", campaign / "thermodata.store", "trace", "small")
+    assert said.code == 2
+    assert "'small' is a campaign" in said.err
+    assert "heat1, heat2, day1 and day2" in said.err or "heat1, heat2, day1, day2" in said.err
+    assert "thermodata trace small heat1" in said.err
+    assert "no model 'smal'" in say("--store", campaign / "thermodata.store", "trace", "smal").err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+@pytest.mark.parametrize("words", [["sql", "from range(300000)", "--csv"], ["--help"]])
+def test_a_reader_who_has_read_enough_is_no_failure(tmp_path: Path, words: list[str]) -> None:
+    Store(tmp_path / "s", create=True)
+    # who writes finds the pipe closed, as behind `| head -1`
+    reads, writes = os.pipe()
+    os.close(reads)
+    command = [sys.executable, "-m", "thermodata", "--store", str(tmp_path / "s"), *words]
+    done = subprocess.run(command, stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writes)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("query", "told"),
+    [
+        ("select id from test", 'test.test is its name; thermodata sql "describe test"'),
+        ("select c.id from campaign c", "campaign.campaign is its name"),
+        ("select id from temperature", 'thermodata sql "describe temperature" lists its columns'),
+    ],
+)
+def test_an_unknown_column_is_answered_with_where_the_names_stand(
+    say: Say, campaign: Path, query: str, told: str
+) -> None:
+    said = say("--store", campaign / "thermodata.store", "sql", query)
+    assert said.code == 2
+    assert told in said.err
+
+
+@pytest.mark.parametrize(
+    ("words", "usage", "told", "not_told"),
+    [
+        (["plugins", "show"], "plugins show [OPTIONS] [NAME]", "equation", "reader-NAME"),
+        (["plugins", "new"], "plugins new [OPTIONS] [NAME]", "reader-NAME", "equation"),
+        (["model", "export"], "model export [OPTIONS] MODEL", "--to", "export]"),
+        (["plugins"], "plugins [OPTIONS] [show|new] [NAME]", "equation", "Structured"),
+    ],
+)
+def test_an_action_has_its_own_help(say: Say, words: list[str], usage: str, told: str, not_told: str) -> None:
+    said = say(*words, "--help")
+    assert (said.code, said.err) == (0, "")
+    assert f"thermodata {usage}" in said.out
+    assert told in said.out
+    assert not_told not in said.out
+
+
+def test_an_unknown_model_is_answered_with_those_that_are_there(say: Say, campaign: Path, tmp_path: Path) -> None:
+    said = say("--store", campaign / "thermodata.store", "history", "nix")
+    assert "expected: baseline" in said.err
+    assert "thermodata models lists" in said.err
+    Store(tmp_path / "s", create=True)
+    assert "thermodata fit MODEL.yaml" in say("--store", tmp_path / "s", "history", "nix").err
+
+
+def test_one_stale_model_is_one(say: Say, campaign: Path, tmp_path: Path) -> None:
+    own = shutil.copytree(campaign, tmp_path / "own")
+    file = own / "campaign.yaml"
+    file.write_text(
+        file.read_text().replace(
+            "id: heat2, kind: mixed, role: calibration", "id: heat2, kind: mixed, role: verification"
+        )
+    )
+    said = say("--store", own / "thermodata.store", "ingest", file)
+    assert "1 fitted model is stale now: fit it again" in said.out

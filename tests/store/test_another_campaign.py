@@ -80,6 +80,15 @@ def test_one_that_comes_meanwhile_is_not_replaced(
         assert con.execute("select distinct machine from machine").fetchall() == [("138",)]
 
 
+def test_one_that_moved_and_whose_tests_are_renamed_goes_on(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    moved = shutil.copytree(campaign.parent, tmp_path / "archive")
+    path = moved / "campaign.yaml"
+    path.write_text(CAMPAIGN.replace("id: one", "id: june").replace("id: two", "id: july"))
+    for log in sorted((moved / "raw").iterdir()):
+        log.rename(log.with_name(log.name.replace("one", "june").replace("two", "july")))
+    assert ingest(filled, path).read == 0
+
+
 @pytest.mark.parametrize("logs", [True, False])
 def test_one_that_moved_and_whose_machine_is_renamed_goes_on(
     filled: Store, campaign: Path, tmp_path: Path, logs: bool

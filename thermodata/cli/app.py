@@ -7,8 +7,10 @@ import re
 import sys
 import traceback
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
+from typing import Any
 
 import click
 
@@ -80,8 +82,28 @@ def _nearest_command(word: str, choices: Sequence[str]) -> str | None:
     return nearest(word, choices) if found is None else by_parts[found]
 
 
+class _UnreadError(Exception):
+    """A BrokenPipeError, which click would take for a failure and end the program itself, with 1."""
+
+
+@contextmanager
+def _unread_told_apart() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError as error:
+        raise _UnreadError from error
+
+
 class Commands(click.Group):
     """Finds a command by name in its module; the attribute is the name with '_' for '-'."""
+
+    def make_context(self, *given: Any, **more: Any) -> click.Context:
+        with _unread_told_apart():  # of --help
+            return super().make_context(*given, **more)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        with _unread_told_apart():
+            return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -159,7 +181,7 @@ def _failed(error: Exception) -> int:
         return _fail(error.format_message() + where, 2)
     if isinstance(error, click.ClickException):
         return _fail(error.format_message(), 1)
-    if isinstance(error, BrokenPipeError):
+    if isinstance(error, BrokenPipeError | _UnreadError):
         # the reader of stdout has gone (| head): that's its right; the interpreter must not flush again
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0

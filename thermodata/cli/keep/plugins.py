@@ -8,11 +8,19 @@ from typing import Any
 import click
 
 from thermodata.cli.terminal import completing
-from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.common import Session, WithActions, command
 from thermodata.report.text.table import table
 
+_SHOW = """Print all about the installed plugin NAME.
 
-@command("plugins")
+Of an effect its equation, drivers, places, bounds and source; of a reader its formats."""
+_NEW = """Write a small plugin that works and passes its kit: NAME is reader-NAME or effect-NAME.
+
+With tests and comments to go on from: in a checkout of thermodata as plugins/reader-NAME, registered for `uv run`;
+elsewhere as a package in the current folder."""
+
+
+@command("plugins", cls=WithActions, actions={"show": _SHOW, "new": _NEW})
 @click.argument("action", required=False, type=click.Choice(["show", "new"]))
 @click.argument("name", required=False, shell_complete=completing.plugins)
 def plugins_command(session: Session, action: str | None, name: str | None) -> None:

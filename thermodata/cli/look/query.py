@@ -28,6 +28,8 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
     """Ask the store in SQL.
 
     Tables test, channel, model, ...; views sample, temperature, displacement, driver, residual, score, ...
+    'show tables' lists them, 'describe test' the columns of one; a test's name is test.test, a campaign's
+    campaign.campaign.
 
     Without QUERY it is read from stdin. Times t are UTC; t_s are seconds from the test's start. Flagged samples are
     among the others: 'where valid(flag)' leaves out what does not count in means.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from thermodata.cli.terminal import completing
-from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.common import Session, WithActions, command
 from thermodata.cli.terminal.pairs import name_and_value
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
@@ -31,7 +31,7 @@ def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
     return value_in(value, "s")
 
 
-@command("model")
+@command("model", cls=WithActions, actions={"export": None})
 @click.argument("action", type=click.Choice(["export"]))
 @click.argument("model", shell_complete=completing.models)
 @click.option(

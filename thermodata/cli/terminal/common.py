@@ -6,7 +6,8 @@ import errno
 import functools
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -91,6 +92,27 @@ def known_failure(error: Exception) -> ThermodataError | None:
 
     damage = damaged_data(Path("the store"), error)
     return damage or UsageError("the query fails", got=str(error).strip().splitlines()[0])
+
+
+class WithActions(click.Command):
+    """A command whose first argument, `action`, is a word of its own: `plugins show --help` is the help of that one.
+
+    actions: action -> its help; None where it is that of the command."""
+
+    def __init__(self, *given: Any, actions: Mapping[str, str | None], **more: Any) -> None:
+        super().__init__(*given, **more)
+        self._actions = actions
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        action = next((word for word in args if not word.startswith("-")), "")
+        if action in self._actions and not set(args).isdisjoint(ctx.help_option_names):
+            shown = copy(self)
+            shown.params = [p for p in self.params if p.name != "action"]
+            shown.help = self._actions[action] or self.help
+            ctx.info_name = f"{ctx.info_name} {action}"
+            click.echo(shown.get_help(ctx))
+            ctx.exit()
+        return super().parse_args(ctx, args)
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:

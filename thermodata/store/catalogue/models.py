@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -139,9 +139,13 @@ def find_model(store: Store, ref: str) -> StoredModel:
                 f"no model '{ref}'",
                 expected=", ".join(names) or "nothing: no model was fitted yet",
                 got=ref,
-                hint=f"did you mean '{close}'?" if close else "thermodata fit MODEL.yaml",
+                hint=f"did you mean '{close}'?" if close else _other_way(names),
             )
         return _stored(con, chosen)
+
+
+def _other_way(names: Sequence[str]) -> str:
+    return "thermodata models lists all versions, with their ids" if names else "thermodata fit MODEL.yaml"
 
 
 def model_chain(store: Store, model: str) -> list[StoredModel]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import UsageError
-from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.campaign import Campaign, Test
 from thermodata.schema.words.sentences import counted, with_count
 from thermodata.store.ingest.known.inventory import Inventory
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
@@ -19,15 +19,16 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     """UsageError where the store holds another campaign with that id, whose tests and logs would go. path: of the
     campaign file.
 
-    It is the same one where it stands at the same path, or where a test of it has the same logs: so it may move, and
-    its machine may get another name. A log that all campaigns of a hall share makes none the same."""
+    It is the same one where it stands at the same path, or where a test has all the logs of one that is held, or some
+    of them and no other: so it may move, and its machine and tests may get other names. A log that all campaigns of a
+    hall share makes none the same."""
     held = _logs_held(inventory)
     if inventory.campaign is None or not held or inventory.campaign["path"] == str(path):
         return
-    found = {test: _logs_found(files, test) for test in held if any(t.id == test for t in files.campaign.tests)}
-    if any(logs and (logs <= held[test] or logs >= held[test]) for test, logs in found.items()):
+    found = {t.id: _logs_found(files, t) for t in files.campaign.tests}
+    if any(logs and (logs <= before or logs >= before) for logs in found.values() for before in held.values()):
         return
-    if found and not any(found.values()) and not any(_logs_found(files, t.id) for t in files.campaign.tests):
+    if not any(found.values()) and not held.keys().isdisjoint(found):
         return  # it came without its logs, for which the store's raw copies stand
     raise UsageError(
         f"the store holds another campaign with the id '{inventory.name}'",
@@ -50,12 +51,11 @@ def _logs_held(inventory: Inventory) -> dict[str, set[str]]:
     return found
 
 
-def _logs_found(files: CampaignFiles, test: str) -> set[str]:
+def _logs_found(files: CampaignFiles, test: Test) -> set[str]:
     """The hashes of the logs of a test that stand beside the campaign file now."""
-    of = next(t for t in files.campaign.tests if t.id == test)
     found: set[str] = set()
     for name, spec in files.campaign.sources.items():
-        found.update(files.hashes_of(files.of_source(of, name).paths, name, spec.of_test(test)).values())
+        found.update(files.hashes_of(files.of_source(test, name).paths, name, spec.of_test(test.id)).values())
     return found
 
 

@@ -6,7 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import unknown_channel, unknown_name
+from thermodata.errors import UsageError, unknown_channel, unknown_name
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import find_model
@@ -20,6 +21,7 @@ from thermodata.store.trace.reread import reread
 from thermodata.store.trace.sample import find_sample
 
 Answer = dict[str, Any]
+_NAMED = 12  # tests
 
 
 def trace(
@@ -37,7 +39,7 @@ def trace(
     UsageError for a name that isn't there, with the nearest right one.
     """
     if test is None:
-        return _model(store, campaign)
+        return _model_or_which_test(store, campaign)
     with store.reader() as con:
         campaigns = [r["campaign"] for r in fetch(con, "select campaign from campaign")]
         if campaign not in campaigns:
@@ -51,6 +53,23 @@ def trace(
         if channel not in tracer.channels:
             raise unknown_channel(channel, list(tracer.channels))
         return tracer.head() | tracer.channel(channel, t_s)
+
+
+def _model_or_which_test(store: Store, name: str) -> Answer:
+    """UsageError with the tests where that is a campaign, and no model."""
+    try:
+        return _model(store, name)
+    except UsageError as error:
+        with store.reader() as con:
+            tests = [r["test"] for r in fetch(con, "select test from test where campaign = ?", [name])]
+        if not tests:
+            raise
+        raise UsageError(
+            f"'{name}' is a campaign: name one of its tests",
+            expected=with_count(tests, _NAMED),
+            got="no test",
+            hint=f"thermodata trace {name} {tests[0]}",
+        ) from error
 
 
 class _Tracer:

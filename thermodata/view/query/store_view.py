@@ -14,6 +14,7 @@ from thermodata.view.query.reserved import reserved_hint
 from thermodata.view.query.rows import Rows
 from thermodata.view.query.statements import check_statement
 from thermodata.view.query.units import Known, column_units, known_units
+from thermodata.view.query.unknown_column import unknown_column_hint
 
 if TYPE_CHECKING:
     import duckdb
@@ -77,7 +78,8 @@ class StoreView:
             damage = damaged_data(self.path, error)
             if damage is not None:
                 raise damage from error
-            hint = reserved_hint(query) if isinstance(error, duckdb.ParserException) else None
+            parsed = not isinstance(error, duckdb.ParserException)
+            hint = unknown_column_hint(con, query, error) if parsed else reserved_hint(query)
             raise UsageError("the query fails", got=str(error).strip(), hint=hint) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
