@@ -290,39 +290,3 @@ def test_a_start_with_its_offset_in_brackets_counts(zone: str) -> None:
 def test_what_stands_behind_a_start_and_is_no_offset_does_not(zone: str) -> None:
     said = head_start([["Start time:", f"2026-03-02 08:00:00 {zone}"]])
     assert said is None or not said.zoned
-
-
-AGAIN = [NUMBERS[0], *(f"{60 * i}.0;30.{i % 9};31.0" for i in range(20))]
-
-
-@pytest.mark.parametrize("again", ["Messbeginn: Mo, 02.03.2026 08:00 Uhr", "Messbeginn;02.03.2026 08:00:00;"])
-def test_a_logger_that_was_started_again_counts_from_its_second_start(tmp_path: Path, again: str) -> None:
-    rows = [*NUMBERS, "Logger XY", again, *AGAIN]
-    clock, start, notes, minutes = read(tmp_path, ["Logger XY", "Messbeginn: 02.03.2026 07:00:00"], rows)
-    assert (clock, start, minutes) == ("absolute", SEVEN, [*range(40), *range(60, 80)])
-    assert any("count anew from the start in a further head: 'Messbeginn: " in n for n in notes)
-    elapsed = [*ELAPSED, again, ELAPSED[0], *ELAPSED[1:21]]
-    assert read(tmp_path, ["Messbeginn: 02.03.2026 07:00:00"], elapsed)[3] == [*range(40), *range(60, 80)]
-
-
-def test_a_start_between_rows_that_count_on_changes_nothing(tmp_path: Path) -> None:
-    head, rows = ["Start: 2026-03-02 07:00:00"], [*NUMBERS[:21], "Start: 2026-03-02 09:00:00", *NUMBERS[21:]]
-    _, start, notes, minutes = read(tmp_path, head, rows)
-    assert (start, minutes) == (SEVEN, list(range(40)))
-    assert not any("anew" in n for n in notes)
-
-
-@pytest.mark.parametrize(("day", "hour"), [("2026-03-29", 1), ("2026-10-25", 2)])
-def test_seconds_from_a_start_skip_and_repeat_no_hour(tmp_path: Path, day: str, hour: int) -> None:
-    """A logger that counts does not follow the clock on the wall; times of day may."""
-    seconds = [NUMBERS[0], *(f"{60 * i}.0;20.{i % 9};21.0" for i in range(200))]
-    head = [f"Start: {day} {hour:02d}:30:00"]
-    _, _, notes, minutes = read(tmp_path, head, seconds, zone="Europe/Paris")
-    assert minutes == list(range(200))
-    assert not any("skips" in n or "daylight saving" in n for n in notes)
-
-
-def test_times_of_day_that_run_on_where_clocks_change_are_refused(tmp_path: Path) -> None:
-    clocks = [CLOCKS[0], *(f"{1 + (30 + i) // 60:02d}:{(30 + i) % 60:02d}:00;2{i % 9}.5;20.0" for i in range(200))]
-    with pytest.raises(FormatError, match="run straight on"):
-        read(tmp_path, ["Datum: 2026-03-29"], clocks, zone="Europe/Paris")
