@@ -15,6 +15,8 @@ from thermodata.schema.words.sentences import counted
 
 _ROUNDED = 0.01  # of a signal's range: what is left where a program rounded what it saved
 
+_QUARTER_S, _ZONES_S, _CLOCK_S = 900.0, 50_400.0, 1.0  # zones are quarters of an hour apart, up to 14 hours
+
 
 def saved_once(found: Scan) -> Scan:
     """What was found, of each table that stands in two formats one: what has more of it or a date; not a workbook,
@@ -49,10 +51,20 @@ def _rank(file: RawFile) -> tuple[int, bool, bool, bool]:
 
 def _is_same(one: RawFile, other: RawFile) -> bool:
     """Whether all signals of one are in the other, with as many rows and the same values."""
-    if one.path.suffix.lower() == other.path.suffix.lower() or one.sample.rows != other.sample.rows:
+    suffixes = {one.path.suffix.lower(), other.path.suffix.lower()}
+    formats = len(suffixes) == 2 and not any(s[1:].isdigit() for s in suffixes)  # 'log.1' is a piece
+    if not formats or one.sample.rows != other.sample.rows or not _at_once(one, other):
         return False
     here, there = _values(one), _values(other)
     return bool(here) and all(_are_same(v, there.get(name)) for name, v in here.items()) and _goes(here)
+
+
+def _at_once(one: RawFile, other: RawFile) -> bool:
+    """Whether two began at the same time, in whatever zone; one without dates may have."""
+    if one.start_ns is None or other.start_ns is None:
+        return True
+    apart_s = abs(one.start_ns - other.start_ns) / 1e9
+    return apart_s <= _ZONES_S and min(apart_s % _QUARTER_S, -apart_s % _QUARTER_S) <= _CLOCK_S
 
 
 def _values(file: RawFile) -> dict[str, Values]:
