@@ -319,7 +319,7 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, likely, holds=False)
         assert "hardly acts in the locked" not in (found.next_test or ""), "they say no"
         never = self.answered(monkeypatch, spec, nothing("unknown")).next_test or ""
-        assert "add tests that each heat one source alone" in never
+        assert "add tests until each source (spindle, one axis, table, hall air) acts in two at least" in never
         assert "role locked" not in never
 
     @pytest.mark.parametrize(("acting", "evidence", "repeat"), [(1, 390.0, True), (2, 390.0, False), (1, 2.0, False)])
