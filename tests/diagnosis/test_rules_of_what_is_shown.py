@@ -9,13 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
 from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
 from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.why import _figures, _of_all, in_spite_of, placeless_limit
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import WeakSpot
@@ -464,6 +468,21 @@ def test_a_claim_says_what_outweighs_the_figures_against_it(after: float, spread
     assert [one for one in said if one in words] == said
     assert ("its evidence, 0.90 a sample, outweighs" in words) is bool(said)
     assert ("that its gain differs" in words) is (spread > 0.5)
+
+
+def test_locked_tests_that_speak_against_a_claim_are_told_with_what_outweighs_them() -> None:
+    against = Foretold(1.25, 1.20, 1.0)
+    one = replace(scored(after=0.4, evidence=2000.0), looked=Looked(against, against, 0.1))
+    held = Confirmation(4.0, 2.5, 1.25, 1.20, 1.0, {})
+    told = said_by_locked(one, held, "um", "tests", together=False)
+    assert (
+        "which is less than a cause mostly takes away, but the open ones outweigh that: there the error falls" in told
+    )
+    weighed = "by 60 % in the 10 tests in which it acts, with a gain that differs by 10 %, so that, all weighed, its"
+    assert weighed in told
+    assert told.endswith(f"its probability is {100 * probability(one):.0f} %")
+    for_it = replace(one, looked=Looked(*[Foretold(1.25, 0.2, 1.0)] * 2, 0.1))
+    assert "outweigh" not in said_by_locked(for_it, held, "um", "tests", together=False)
 
 
 def test_what_has_the_equation_of_another_is_told_by_the_figures_of_that_other() -> None:
