@@ -154,6 +154,13 @@ def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, Channe
     return f"to exclude {hidden.id}, which {like} would hide: a test {moved}, while what drives {like} rests"
 
 
+def after_clocks(tests: Sequence[str], then: str | None) -> str | None:
+    """The advice where a clock may be off in some tests: that comes before all others."""
+    if not tests or then is None:
+        return then
+    return f"first try the clock in {listed(tests)} as the artefact says, for all else hangs on it; then {then}"
+
+
 def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
     them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
     moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))

@@ -11,6 +11,7 @@ from thermodata.report.verdict.left_over import as_of_nothing, left_over, offere
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
+from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
 from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import listed, with_count
@@ -152,11 +153,7 @@ def _one_is_seen(found: Diagnosis) -> bool:
 def clock_in_doubt(found: Diagnosis) -> str:
     """'a clock may be off in feed20, ...': a hint that the answer did not act upon, told before all that hangs on it;
     '' where there is none."""
-    moved = [] if found.put_right is None else found.put_right.clocks
-    places = {(c.campaign, c.test) for c in moved}
-    open_still = [a for a in found.artefacts if a.kind == "clock_offset"]
-    open_still = [a for a in open_still if not places & {(a.campaign, a.test or ""), ("", ""), (a.campaign, "")}]
-    tests = list(dict.fromkeys(a.test or "all tests" for a in open_still))
+    tests = clocks_in_doubt(found.artefacts, found.put_right)
     if not tests:
         return ""
     return (
