@@ -93,7 +93,9 @@ def test_one_claim_is_told_with_its_probability_and_both_errors() -> None:
 def test_a_claim_names_the_effects_on_other_channels_that_it_cant_be_told_from() -> None:
     twins = ["lag:T_other", "screw:v", "lag:T", "motor:T_mot", "motor:T_mot_2", "oil:T", "guide:T_g,v", "sun:E"]
     text = verdict_sentence(found("effect", [claim("screw", equivalent=twins)]))
-    assert text.startswith("missing: screw (T), probability 94 %, not told from motor (T_mot) and guide (T_g, v); ")
+    assert text.startswith(
+        "missing: screw (T), probability 94 % (that it is one of these), not told from motor (T_mot) and guide (T_g, v); "
+    )
     assert "not told" not in verdict_sentence(found("effect", [claim("screw", equivalent=["lag:T", "oil:T"])]))
 
 
@@ -132,7 +134,7 @@ def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (
-        "the open tests show no missing cause apart from what the model has in part; what the model has can be refined "
+        "the open tests show no missing cause that the model has nothing of; what the model has can be refined "
         "by mode (T), error on left-out tests 4.00 -> 1.00 um"
     )
     assert "refined by mode (T) and bearing (T), " in verdict_sentence(found("refine", [second, bearing]))
@@ -252,8 +254,9 @@ def test_something_is_missing_where_more_is_left_than_of_a_machine_that_lacks_no
 
 def test_the_likeliest_says_by_which_name_it_may_go_and_what_else_it_may_be() -> None:
     lag = one("lag", probability=0.41, equivalent=["oil:T"], unread=["axis.z.nut"])
-    assert "is lag (T), which may be oil or heat at axis.z.nut, probability 41 %" in verdict_sentence(
-        found("unknown", [lag])
+    assert (
+        "is lag (T), which may be oil or heat at axis.z.nut, which T can't tell from it, probability 41 %"
+        in verdict_sentence(found("unknown", [lag]))
     )
 
 
@@ -317,7 +320,7 @@ def test_what_is_as_probable_as_a_claim_and_not_excluded_says_what_stops_it_and_
     text = verdict_sentence(found("none", [likely]))
     assert text.startswith("the open tests show no missing effect that may be named: ")
     assert text.endswith(
-        "; not excluded: motor (T), probability 71 %, not told from screw (T_n), but it explains 1.8 % of the response "
+        "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n), but it explains 1.8 % of the response "
         "(limit 10 %)"
     )
     unlikely = likely.model_copy(update={"probability": 0.4, "rungs": [rungs[0], rung("probability", holds=False)]})
@@ -457,7 +460,7 @@ def test_none_is_said_with_what_an_earlier_claim_left_on_the_locked_tests(locked
 def test_every_verdict_has_words_without_any_candidate() -> None:
     said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
     assert len(set(said.values())) == len(said)
-    assert said["refine"].startswith("the open tests show no missing cause apart from what the model has in part")
+    assert said["refine"].startswith("the open tests show no missing cause that the model has nothing of")
 
 
 def test_what_a_candidate_could_take_away_is_no_promise() -> None:
@@ -543,7 +546,9 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     mode = [one("mode", refinement=True, drivers=["T_b"])]
     screw = one("screw", probability=0.24, unread=["axis.z.guide"])
     text = verdict_sentence(found(verdict, [*mode, screw]))
-    assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide, probability 24 %")
+    assert text.endswith(
+        "; not excluded: screw (T) or heat at axis.z.guide, which T can't tell from it, probability 24 %"
+    )
     again = one("lag", probability=0.24, drivers=["T_b"])
     for slight in (one("screw", probability=0.09), one("screw", probability=None), again):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))

@@ -29,7 +29,7 @@ _MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
 AS_DATED = " as the logs are dated"
-NO_MORE = "the open tests show no missing cause apart from what the model has in part"
+NO_MORE = "the open tests show no missing cause that the model has nothing of"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
 FAR = 2.0
@@ -177,7 +177,7 @@ def _not_excluded(found: Diagnosis) -> str:
     first = _not_excluded_one(found)
     if first is None:
         return ""
-    said = ", ".join(filter(None, [_or_elsewhere(first), _how_sure(first), _not_told_from(first)]))
+    said = _with_probability(first)
     stops = next((r.fails for r in first.rungs if not r.holds and r.fails), None)
     return f"not excluded: {said}{f', but {stops}' if stops and _is_likely(first) else ''}"
 
@@ -193,15 +193,24 @@ def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
 
 
 def causes(claims: Sequence[Candidate]) -> str:
-    """'screw (T_nut), probability 94 %, not told from motor (T_mot)', the same wherever a claim is told."""
-    names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c), _not_told_from(c)])) for c in claims]
+    """'screw (T_nut), probability 94 % (that it is one of these), not told from motor (T_mot)', the same
+    wherever a claim is told."""
+    names = [_with_probability(c) for c in claims]
     # commas stand within a name and its probability
     return names[0] if len(names) == 1 else ", and ".join([", ".join(names[:-1]), names[-1]])
 
 
+def _with_probability(one: Candidate) -> str:
+    """A twin that is named beside it counts as right in what is known of such probabilities."""
+    twins = _not_told_from(one)
+    of = " (that it is one of these)" if twins else ""
+    sure = "" if one.probability is None else f"probability {probability(one.probability)}{of}"
+    return ", ".join(filter(None, [_or_elsewhere(one), sure, twins]))
+
+
 def _or_elsewhere(one: Candidate) -> str:
     told = named(one) + _by_name(one)
-    return f"{told} or {other_heat(one)}" if one.unread else told
+    return f"{told} or {other_heat(one)}, which {listed(one.drivers)} can't tell from it" if one.unread else told
 
 
 def _by_name(one: Candidate) -> str:
@@ -225,10 +234,6 @@ def as_named(candidate: str) -> str:
     """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
     effect, _, channels = candidate.partition(":")
     return f"{effect} ({channels.replace(',', ', ')})" if channels else effect
-
-
-def _how_sure(one: Candidate) -> str:
-    return "" if one.probability is None else f"probability {probability(one.probability)}"
 
 
 def _unclaimed(found: Diagnosis) -> str:
