@@ -51,8 +51,8 @@ def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> Non
         )
     )
     assert text == (
-        "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 um, "
-        "for slow noise covers what is less (RMS where it acts; the response has 15.0 um)"
+        "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 "
+        "um, for slow noise covers what is less (RMS where it acts; the response has 15.0 um)"
     )
 
 

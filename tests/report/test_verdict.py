@@ -94,7 +94,8 @@ def test_a_claim_names_the_effects_on_other_channels_that_it_cant_be_told_from()
     twins = ["lag:T_other", "screw:v", "lag:T", "motor:T_mot", "motor:T_mot_2", "oil:T", "guide:T_g,v", "sun:E"]
     text = verdict_sentence(found("effect", [claim("screw", equivalent=twins)]))
     assert text.startswith(
-        "missing: screw (T), probability 94 % (that it is one of these), not told from motor (T_mot) and guide (T_g, v); "
+        "missing: screw (T), probability 94 % (that it is one of these), not told from motor (T_mot) and guide "
+        "(T_g, v); "
     )
     assert "not told" not in verdict_sentence(found("effect", [claim("screw", equivalent=["lag:T", "oil:T"])]))
 
@@ -324,7 +325,8 @@ def test_what_is_as_probable_as_a_claim_and_not_excluded_says_what_stops_it_and_
     text = verdict_sentence(found("none", [likely]))
     assert text.startswith("the open tests show no missing effect that may be named: ")
     assert text.endswith(
-        "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n), but it explains 1.8 % of the response "
+        "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n), "
+        "but it explains 1.8 % of the response "
         "(limit 10 %)"
     )
     unlikely = likely.model_copy(update={"probability": 0.4, "rungs": [rungs[0], rung("probability", holds=False)]})
