@@ -96,6 +96,37 @@ def test_a_parameter_without_a_unit_is_one_number() -> None:
     assert "screw:T: exponent 1.43\n" in said
 
 
+def test_parameters_are_told_with_interval_bound_and_what_a_gain_is_of() -> None:
+    """What a turret takes in a minute is at the least that a fit may reach; a feed gives its gain at 10 m/min."""
+    tau = Parameter(value=1.0, unit="min", low=None, high=4.1157)
+    gain = Parameter(value=8.59, unit="um", low=7.99, high=9.195)
+    told = {"feed_screw.tau": tau, "feed_screw.gain": gain}
+    said = text("effect", candidate(1, "feed_screw", claimed=True, parameters=told))
+    assert "feed_screw:T: feed_screw.tau 1.00 min (at its bound; up to 4.12), feed_screw.gain 8.59 um (7.99 to" in said
+    assert "; in brackets intervals of 95 %\nfeed_screw.gain is displacement at rest a kelvin (um at 10 m/min" in said
+    inside = tau.model_copy(update={"value": 2.0})
+    alike = candidate(1, "feed_screw", claimed=True, parameters={"feed_screw.tau": inside})
+    assert "feed_screw.tau 2.00 min (up to 4.12)" in text("effect", alike)
+    per_kelvin = candidate(
+        1, "feed_screw", claimed=True, parameters={"feed_screw.gain": Parameter(value=1.0, unit="um/K")}
+    )
+    assert "is displacement" not in text("effect", per_kelvin), "its unit says it"
+
+
+def test_the_least_p_that_can_come_out_is_called_that() -> None:
+    said = text("effect", candidate(1, "screw", claimed=True), candidate(2, "sun"), candidate(3, "mill", p_value=0.13))
+    assert "0.00500" not in said
+    assert "0.005 is the least that can come out" in said
+    assert "the least that can" not in text("effect", candidate(1, "screw", claimed=True))
+
+
+def test_what_stands_beside_and_has_no_row_was_among_what_was_asked() -> None:
+    beside = ["oil:T", "sun:T"]
+    said = text("effect", candidate(1, "screw", claimed=True, beside=beside), candidate(2, "sun"))
+    assert "the model's own. oil:T has no row here: it was among what was asked" in said
+    assert "no row" not in text("effect", candidate(1, "screw", beside=["sun:T"]), candidate(2, "sun"))
+
+
 def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promised() -> None:
     said = text("unknown", candidate(1, "screw", probability=0.35), candidate(2, "sun"))
     assert "why screw:T: because of screw" in said

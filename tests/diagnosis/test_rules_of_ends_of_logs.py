@@ -6,6 +6,7 @@ import pytest
 
 from thermodata.diagnosis.clocks.ends_of_logs import Ends, OddEnds, is_alike, meets
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
+from thermodata.diagnosis.tell.next_test import after_clocks
 from thermodata.schema.answers.diagnosis import ClockMoved
 from thermodata.store.ingest.told.whole_hours import HoursApart
 
@@ -113,6 +114,27 @@ def test_a_hint_that_was_not_acted_upon_says_which_line_to_try() -> None:
     assert "write clocks: {nc: -2405 s} into the line of test 'feed20'" in told.why
     (elsewhere,) = Ends((odd,)).artefacts("third", [])
     assert "To try it" not in elsewhere.why
+
+
+def test_which_line_to_try_is_said_once() -> None:
+    odd = OddEnds(
+        "c", "feed20", "nc", "log", 2405.0, "odd ends: try clocks: {nc: -2405 s} or {log: 2405 s}", "odd ends"
+    )
+    (told,) = Ends((odd,)).artefacts("log", [])
+    assert told.why.startswith("odd ends. Nothing was moved for it here")
+    assert told.why.count("clocks: {") == 1
+    (moved,) = Ends((odd,)).artefacts("log", [ClockMoved(source="nc", campaign="c", test="feed20", moved_s=-2405.0)])
+    assert moved.why.startswith("odd ends. The choice is made with 'nc' moved by -40.1 min there")
+    (elsewhere,) = Ends((odd,)).artefacts("third", [])
+    assert elsewhere.why.startswith("odd ends: try clocks: {nc: -2405 s}"), "there nobody knows which"
+
+
+def test_a_clock_in_doubt_comes_before_the_next_test() -> None:
+    assert after_clocks(["t1"], "to exclude it: heat it") == (
+        "first try the clock in t1 as the artefact says, for all else hangs on it; then to exclude it: heat it"
+    )
+    assert after_clocks([], "heat it") == "heat it"
+    assert after_clocks(["t1"], None) is None, "the verdict says it"
 
 
 def test_logs_that_are_hours_apart_in_all_tests_are_told_unless_heat_moved_one() -> None:

@@ -14,7 +14,7 @@ from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims import refinement
 from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
 from thermodata.diagnosis.claims.refinement import Refinement
-from thermodata.diagnosis.claims.refines import PART, elsewhere_of, mode_of
+from thermodata.diagnosis.claims.refines import PART, elsewhere_of, mode_of, not_advised
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.question.problem import Problem
@@ -162,6 +162,10 @@ def test_a_mode_is_told_with_the_effects_that_it_is_taken_for_a_mode_of(
     assert told == mode_of(named.split(" and "))
     assert f"another mode of {named}, which the model has: these tests can't tell a cause of its own" in told
     assert "add it, or confirm it" in told
+    against = not_advised(told, "left-out tests are foretold no better with it")
+    assert against.endswith("from that; adding it is not advised, for left-out tests are foretold no better with it")
+    assert "add it, or" not in against, "nobody is told both"
+    assert not_advised(told, "") == told
 
 
 @dataclass(frozen=True)

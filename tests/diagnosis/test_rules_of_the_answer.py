@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import fields, replace
 from types import SimpleNamespace
@@ -319,7 +320,7 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, likely, holds=False)
         assert "hardly acts in the locked" not in (found.next_test or ""), "they say no"
         never = self.answered(monkeypatch, spec, nothing("unknown")).next_test or ""
-        assert "add tests that each heat one source alone" in never
+        assert "add tests until each source (spindle, one axis, table, hall air) acts in two at least" in never
         assert "role locked" not in never
 
     @pytest.mark.parametrize(("acting", "evidence", "repeat"), [(1, 390.0, True), (2, 390.0, False), (1, 2.0, False)])
@@ -406,6 +407,13 @@ class TestAnswer:
         assert not fails.claimed
         assert fails.why.endswith(f"not claimed: it acts in one test only: no other foretells it; {NO_FALL}")
         assert (self.looked_at, self.concluded) == (["z"], []), "it is no sound member"
+
+    def test_what_breaks_a_rule_and_is_improbable_says_both(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
+        small = scored("small", evidence=20.0, after=0.99)
+        found = self.answered(monkeypatch, spec, nothing("unknown"), ranked=(small,)).candidates[0]
+        assert re.search(
+            r"not claimed: .* \(limit .*\); and causes like it were right in \d+ % of cases only", found.why
+        )
 
     def test_a_refinement_is_shown_after_claims_and_before_others(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
@@ -507,6 +515,12 @@ class TestAnswer:
         judgement = replace(nothing("unknown", mode), refinements=(mode,))
         found = self.answered(monkeypatch, spec, judgement, ranked=(FIRST, mode.scored, OTHER))
         assert [c.effect for c in found.candidates][:2] == order
+        told = next(c for c in found.candidates if c.refinement).why
+        against = "a mode; adding it is not advised, for left-out tests are foretold no better with it"
+        assert told.endswith(against) is (after > 1)
+        assert ("does not fall" in told) is (after > 1)
+        both = "though it makes 10 of 10 more probable: that is of their samples with the known effects free to act"
+        assert (both in told) is (after > 1), "beside an error that does not fall it says how that can be"
 
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

@@ -262,7 +262,13 @@ def test_a_claim_names_it() -> None:
         candidates=[claim],
         artefacts=[],
     )
-    assert "missing: feed_screw (T_nut) or heat at axis.z.guide, probability 80 %;" in verdict_sentence(found)
-    assert causes([claim]) == "feed_screw (T_nut) or heat at axis.z.guide, probability 80 %"
+    assert (
+        "missing: feed_screw (T_nut) or heat at axis.z.guide, which T_nut can't tell from it, probability 80 %;"
+        in verdict_sentence(found)
+    )
+    assert (
+        causes([claim])
+        == "feed_screw (T_nut) or heat at axis.z.guide, which T_nut can't tell from it, probability 80 %"
+    )
     plain = claim.model_copy(update={"unread": []})
     assert causes([plain]) == "feed_screw (T_nut), probability 80 %"

@@ -9,13 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
 from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
-from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_find, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.why import _figures, _of_all, in_spite_of, placeless_limit
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import WeakSpot
@@ -265,7 +269,9 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
     advice = to_find(tests, [spot], CHANNELS)
     assert said in advice
     assert advice.startswith("1 test took part" if tests == 1 else f"{tests} tests took part")
-    assert ("coolant on" in advice) == (tests == 8)
+    where = "near the parts that work where the model fails most, which is in t from 0.0 h to 0.0 h (then: coolant on)"
+    assert (where in advice) == (tests == 8), "a state is no part"
+    assert to_find(8, [], CHANNELS).endswith("where the model fails most (in no state in particular)")
 
 
 def test_tests_that_are_too_short_are_told_to_be_longer() -> None:
@@ -276,7 +282,8 @@ def test_tests_that_are_too_short_are_told_to_be_longer() -> None:
 def test_what_more_tests_gave_elsewhere_is_told_of_few_tests_only(tests: int, told: bool) -> None:
     advice = to_find(tests, [], CHANNELS)
     assert ("72 % with 3, 86 % with 8 and 80 % with 16 tests" in advice) is told
-    assert ("until each acts in two at least" in advice) is (tests < 8)
+    until = "add tests until each source (spindle, one axis, table, hall air) acts in two at least"
+    assert (until in advice) is (tests < 8)
 
 
 @pytest.mark.parametrize(("drop", "named"), [(0.31, True), (0.29, False)])
@@ -304,6 +311,8 @@ CHANNELS = {
     "n": ChannelInfo("n", "rotational_speed", "rpm", at="spindle"),
     "T_free": ChannelInfo("T_free", "temperature", "degC"),
     "T_loose": ChannelInfo("T_loose", "temperature", "degC"),
+    "f": ChannelInfo("f", "feed", "m/min", at="axis.z"),
+    "g": ChannelInfo("g", "feed", "m/min"),
 }
 
 
@@ -314,7 +323,11 @@ def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
 
     assert "same place: not separable by another test" in (advice("T_a", "T_b") or "")
     assert "to tell a:n from b:T_a: short pulses of speed" in (advice("n", "T_a") or "")
-    assert "one is heated and the other is not" in (advice("T_a", "n") or "")
+    by_heat = advice("T_a", "n") or ""
+    assert "n may be what warms T_a, so warm that by itself (a heating foil, n at rest), or let all cool" in by_heat
+    assert by_heat.endswith("one goes with T_a, the other with n"), "nobody heats the one and not the other"
+    assert "to tell a:f from b:T_a: Z moving alone at two feeds" in (advice("f", "T_a") or "")
+    assert "the axis of g moving alone at two feeds" in (advice("g", "T_a") or ""), "nobody said where it is"
     assert "one is heated and the other is not" in (advice("T_free", "T_loose") or ""), "nowhere is not the same place"
     assert advice("T_a", "T_b", same_effect=True) is None
     assert advice("T_a", "T_a") is None, "one channel by another name is no rival"
@@ -380,6 +393,13 @@ def test_a_refusal_is_decided_by_a_locked_test_that_moves_its_channels(channels:
     advice = to_decide([candidate("a", channels=channels)], CHANNELS | more)
     assert f"run a test with the role locked, from a cold start, {moved}" in advice
     assert "If the error there falls with it" in advice
+
+
+@pytest.mark.parametrize("kind", ["of_holder", "passive"])
+def test_what_has_no_source_of_its_own_is_warmed_from_outside(kind: str) -> None:
+    advice = to_exclude(candidate("probe", **{kind: True}), "frame", CHANNELS)
+    assert "a test in which T_a moves much (warmed by itself from outside, by a heating foil or a fan heater" in advice
+    assert "its own source" not in advice
 
 
 def test_claims_that_were_refused_together_are_each_moved() -> None:
@@ -448,6 +468,21 @@ def test_a_claim_says_what_outweighs_the_figures_against_it(after: float, spread
     assert [one for one in said if one in words] == said
     assert ("its evidence, 0.90 a sample, outweighs" in words) is bool(said)
     assert ("that its gain differs" in words) is (spread > 0.5)
+
+
+def test_locked_tests_that_speak_against_a_claim_are_told_with_what_outweighs_them() -> None:
+    against = Foretold(1.25, 1.20, 1.0)
+    one = replace(scored(after=0.4, evidence=2000.0), looked=Looked(against, against, 0.1))
+    held = Confirmation(4.0, 2.5, 1.25, 1.20, 1.0, {})
+    told = said_by_locked(one, held, "um", "tests", together=False)
+    assert (
+        "which is less than a cause mostly takes away, but the open ones outweigh that: there the error falls" in told
+    )
+    weighed = "by 60 % in the 10 tests in which it acts, with a gain that differs by 10 %, so that, all weighed, its"
+    assert weighed in told
+    assert told.endswith(f"its probability is {100 * probability(one):.0f} %")
+    for_it = replace(one, looked=Looked(*[Foretold(1.25, 0.2, 1.0)] * 2, 0.1))
+    assert "outweigh" not in said_by_locked(for_it, held, "um", "tests", together=False)
 
 
 def test_what_has_the_equation_of_another_is_told_by_the_figures_of_that_other() -> None:

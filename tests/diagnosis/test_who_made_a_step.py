@@ -78,7 +78,7 @@ def test_one_as_large_elsewhere_may_be_chance() -> None:
 
 def test_of_one_step_alone_nothing_is_known() -> None:
     [told] = as_artefacts([at(1.0, 5.0)], "um")
-    assert "there is no other, and its level does not come back: that happens with both" in told.why
+    assert "it is the only jump of these tests, and its level does not come back: so does a slip, and so" in told.why
     assert BODY not in told.why
     assert SLIP not in told.why
 

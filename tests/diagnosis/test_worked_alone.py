@@ -51,7 +51,7 @@ def test_a_test_that_is_there_is_repeated(channel: str, said: str) -> None:
 
 def test_sources_that_no_test_works_alone_are_named() -> None:
     advice = to_find(4, [], CHANNELS, None, worked(TESTS, CHANNELS))
-    assert "each heat one source alone (none is of axis.x yet; turret in one only), until each acts in two" in advice
+    assert "until each source acts in two at least (none works axis.x alone yet; turret acts in one only)" in advice
     full = worked([*TESTS, doing("X", F_X=12), doing("AWZ2", n_AWZ=4000)], CHANNELS)
     assert full.lacking() == []
     assert "are worked alone in a test already, so add tests that work several" in to_find(6, [], CHANNELS, None, full)

@@ -51,8 +51,8 @@ def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> Non
         )
     )
     assert text == (
-        "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 um "
-        "(RMS where it acts; the response has 15.0 um)"
+        "these tests can't exclude guideway (T) up to 13.6 um, for feed_screw does 91 % of it; floor (T) up to 4.00 "
+        "um, for slow noise covers what is less (RMS where it acts; the response has 15.0 um)"
     )
 
 
@@ -67,8 +67,22 @@ def test_of_what_nothing_bounds_the_one_that_the_tests_speak_for_comes_first() -
 
 
 def test_more_than_all_that_was_measured_is_no_bound() -> None:
-    assert "floor (T) of any size" in could_hide(found(one("floor", 9.1)))
-    assert "floor (T) up to 8.90 um" in could_hide(found(one("floor", 8.9)))
+    assert "floor (T) of any size, for slow noise covers it (" in could_hide(found(one("floor", 9.1)))
+    nearly = could_hide(found(one("floor", 8.9)))
+    assert "floor (T) up to 8.90 um, nearly all of the response, for slow noise covers what is less (" in nearly
+    assert "nearly" not in could_hide(found(one("floor", 8.0)))
+
+
+@pytest.mark.parametrize(
+    ("least", "seen", "said"),
+    [
+        (None, 0.48, "of any size, for base does 52 % of it and slow noise covers the rest"),
+        (None, 0.03, "of any size, for base does 97 % of it ("),
+        (7.0, 0.48, "up to 7.00 um, for base does 52 % of it ("),
+    ],
+)
+def test_what_does_half_of_an_effect_alone_does_not_hide_it(least: float | None, seen: float, said: str) -> None:
+    assert said in could_hide(found(one("floor", least, seen=seen, behind="base")))
 
 
 def test_where_all_would_have_been_seen_that_is_said() -> None:

@@ -25,6 +25,7 @@ from thermodata.diagnosis.tell.listed import (
     listed,
     with_probability,
 )
+from thermodata.diagnosis.tell.next_test import after_clocks
 from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.diagnosis.tell.stated import Row
 from thermodata.diagnosis.unlogged.unexplained import characterise
@@ -32,6 +33,7 @@ from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, suspect
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
 from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis, PutRight, ResponseLeft
 from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.view.grid.dataset import Dataset
@@ -47,6 +49,7 @@ def in_contract(
     terms = [t.id for t in case.sound.fitted.responses[case.index].terms]
     shown = listed(investigation, judgement)
     head = first_cause(shown)
+    right = _put_right(case, found)
     most, most_by = explainable([s for s, _ in shown], investigation)
     return Diagnosis(
         model=model_id,
@@ -65,9 +68,12 @@ def in_contract(
         weak_spots=investigation.spots,
         candidates=_candidates(shown, head, found, data),
         artefacts=investigation.artefacts,
-        put_right=_put_right(case, found),
+        put_right=right,
         unknown=_unknown(shown, head, found) if judgement.verdict == "unknown" else None,
-        next_test=advice(investigation, judgement, found.confirmation, shown[0][0] if shown else None, data, terms),
+        next_test=after_clocks(
+            clocks_in_doubt(investigation.artefacts, right),
+            advice(investigation, judgement, found.confirmation, shown[0][0] if shown else None, data, terms),
+        ),
         response_um=investigation.measure.spread,
         limits=[] if judgement.claims else [_limit(one, terms, investigation) for one in investigation.limits],
         at_rest=[] if judgement.claims else _at_rest(investigation.at_rest, data),

@@ -27,3 +27,9 @@ def elsewhere_of(terms: Sequence[str]) -> str:
         f"it is {' and '.join(terms)}, which the model has, by another sensor: what that part does otherwise than the "
         f"sensor of the model tells, or another such part ({TRY})"
     )
+
+
+def not_advised(refines: str, against: str) -> str:
+    """The same without the advice to add it, where something speaks against that. against: what; '' where nothing
+    does."""
+    return f"{refines.removesuffix(f' ({TRY})')}; adding it is not advised, for {against}" if against else refines

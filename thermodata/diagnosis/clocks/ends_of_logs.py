@@ -25,7 +25,8 @@ Key = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class OddEnds:
-    """In a test the source `late` stands shift_s (> 0) later beside `early` than in most. said: of all such tests."""
+    """In a test the source `late` stands shift_s (> 0) later beside `early` than in most. said: of all such tests,
+    with what to try; seen: the same without that."""
 
     campaign: str
     test: str
@@ -33,6 +34,7 @@ class OddEnds:
     early: str
     shift_s: float
     said: str
+    seen: str = ""
 
     @property
     def key(self) -> Key:
@@ -84,6 +86,8 @@ class Ends:
             late, early = (by_s.get((*odd.key, source), 0.0) for source in (odd.late, odd.early))
             if move is None and abs(odd.shift_s + late - early) < abs(odd.shift_s) / 2:
                 continue
+            # what to try is told once, and here it is known which log to move
+            said = odd.said if move is None else odd.seen or odd.said
             then = f"Nothing was moved for it here, for {_BY_NO_HEAT if move is not None else _IN_NEITHER}"
             if move is not None:
                 line = f"clocks: {{{move.source}: {move.moved_s:.0f} s}}"
@@ -95,7 +99,7 @@ class Ends:
                 by = f"{move.moved_s / 60:+.3g} min"
                 then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}. "
                 then += f"If it was right, declare at this test clocks: {{{move.source}: 0 s}}"
-            found.append(_told(odd.campaign, odd.test, f"{odd.said}. {then}"))
+            found.append(_told(odd.campaign, odd.test, f"{said}. {then}"))
         known = {m.source for m in moved if not m.test}
         return found + [
             _told(campaign, "", f"{one}. Nothing was moved for it here, for {_BY_NO_HEAT_AT_ALL}")
@@ -154,7 +158,7 @@ def ends_of_logs(store: Store, model: Loaded) -> Ends:
         agree |= {(campaign, test): sources for test, sources in together(rows, said).items()}
         hours[campaign] = whole_hours(rows, said)
         odd += [
-            OddEnds(campaign, test, one.late, one.early, one.shift_s, str(one))
+            OddEnds(campaign, test, one.late, one.early, one.shift_s, str(one), one.seen)
             for one in odd_clocks(rows)
             for test in one.tests
             if (campaign, test) in here

@@ -30,7 +30,10 @@ def which(step: Step, steps: Sequence[Step]) -> str:
         return f"that{where} at {_hours(alike)} is as large, which a body repeats, and two slips are by chance"
     if len(steps) > 1:
         return "no other jump takes it back or is as large, and no programme shows in when they come: so do slips"
-    return "there is no other, and its level does not come back: that happens with both"
+    return (
+        "it is the only jump of these tests, and its level does not come back: so does a slip, and so does a body that "
+        "moved once"
+    )
 
 
 def evenly(steps: Sequence[Step]) -> str:

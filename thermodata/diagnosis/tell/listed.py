@@ -17,6 +17,7 @@ from thermodata.diagnosis.tell.stated import Row, causes, goes_by_name, is_judge
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
@@ -62,6 +63,19 @@ def lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
     if added is not None and added.after >= added.before:
         return False
     return s.drop > 0 or fall(beside_the_model(s, investigation)[0]) > 0
+
+
+def _against_adding(s: Scored, investigation: Investigation) -> str:
+    """Why a refinement is not advised, with what the locked tests say, where they were opened for it; '' where it
+    is."""
+    if lets_an_error_fall(s, investigation):
+        return ""
+    added, unit = _added(s), investigation.problem.unit
+    figures = "" if added is None else f" ({from_to(added.before, added.after, unit)} about each one's mean)"
+    if added is not None and added.after >= added.before:
+        return f"locked tests are foretold no better with it{figures}"
+    though = f", though locked ones are{figures}" if added is not None else ""
+    return f"left-out tests are foretold no better with it{though}"
 
 
 def _added(s: Scored) -> Foretold | None:
@@ -113,6 +127,7 @@ def candidate(
     by_name = goes_by_name(s, told_with) if member is None else None
     mode = reads_as(s, [j.scored for j in judgement.refinements]) if member is None else None
     twins = [t.candidate for t in equivalents(_as_ranked(s, beside), beside)]
+    against = _against_adding(s, investigation) if refining else ""
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -142,7 +157,7 @@ def candidate(
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads or told_of else [],
         also_on=dict(s.also_on),
-        why=why(s, member, investigation, judgement, held, told, by_name or mode, of_model=of_model),
+        why=why(s, member, investigation, judgement, held, told, by_name or mode, of_model=of_model, against=against),
         evidence=float(s.evidence) if np.isfinite(s.evidence) and not s.as_modelled else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),

@@ -26,7 +26,7 @@ WORTH_A_TEST = 0.3
 
 _PROTOCOL = {
     "rotational_speed": "short pulses of speed (5 min on, 10 min off) at two speeds",
-    "feed": "one axis moving alone at two feeds, with heating and cooling",
+    "feed": "{axis} moving alone at two feeds, with heating and cooling",
     "power": "cutting at two loads, and the same path as an air cut",
     "state": "switching it on and off while all else rests",
     "temperature": "a test in which the one is heated and the other is not",
@@ -50,6 +50,13 @@ _BY_PART = (
     "they warmed together, so warm one by itself (a heating foil, the machine at rest), or let all cool to the end "
     "twice, after half an hour of motion and after hours of it"
 )
+# one is driven by a temperature, the other by what warms it
+_BY_HEAT_OR_MOTION = (
+    "{moves} may be what warms {warm}, so warm that by itself (a heating foil, {moves} at rest), or let all cool to "
+    "the end twice, after half an hour of {moves} and after hours of it: one goes with {warm}, the other with {moves}"
+)
+# what makes no heat, and what holds the probes or the tool, which has no source of its own
+_BY_FOIL = "warmed by itself from outside, by a heating foil or a fan heater, the machine at rest, then cooling"
 _LOADED = "at a high load for hours, then at rest"
 _BY_DAY = "through a day and a night, the machine at rest"
 
@@ -78,7 +85,22 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     own = [c for c in mine.channels if c not in other.channels] or list(mine.channels)
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
-    return f"to tell {mine.id} from {other.id}: {how}"
+    if quantity == "temperature" and own[0] in channels and other.channels and _moves(other, channels):
+        how = _BY_HEAT_OR_MOTION.format(warm=own[0], moves=listed(other.channels))
+    return f"to tell {mine.id} from {other.id}: {how.format(axis=_axis(own, channels))}"
+
+
+def _moves(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> bool:
+    """Whether it is driven by what heats a part, and by no temperature: nobody heats the one and not the other."""
+    return all(c in channels and channels[c].quantity != "temperature" for c in one.channels)
+
+
+def _axis(names: Sequence[str], channels: Mapping[str, ChannelInfo]) -> str:
+    """'Z', by the place of the first channel; else 'the axis of feed_Z'."""
+    at = str(channels[names[0]].at).split(".") if names and names[0] in channels else []
+    if len(at) > 1 and at[0] == "axis":
+        return at[1].upper()
+    return f"the axis of {names[0]}" if names else "one axis"
 
 
 def to_tell_parts(
@@ -132,6 +154,13 @@ def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, Channe
     return f"to exclude {hidden.id}, which {like} would hide: a test {moved}, while what drives {like} rests"
 
 
+def after_clocks(tests: Sequence[str], then: str | None) -> str | None:
+    """The advice where a clock may be off in some tests: that comes before all others."""
+    if not tests or then is None:
+        return then
+    return f"first try the clock in {listed(tests)} as the artefact says, for all else hangs on it; then {then}"
+
+
 def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
     them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
     moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))
@@ -147,6 +176,8 @@ def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     first = next((channels[c] for c in one.channels if c in channels), None)
     if first is not None and is_around(first.at):
         how = _BY_DAY
+    elif one.of_holder or one.passive:
+        how = _BY_FOIL
     else:
         read = {channels[c].quantity for c in one.channels if c in channels}
         several = len(one.channels) > 1 and read == {"temperature"}
@@ -184,14 +215,14 @@ def to_find(
     if tests < ENOUGH_TESTS:
         add = _one_source_each(sources)
         if tests > FEW_TESTS:
-            return f"{counted(tests, 'test')} took part; {add} at least: no other test foretells what acts in one alone"
+            return f"{counted(tests, 'test')} took part; {add}: no other test foretells what acts in one alone"
         all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
         return (
             f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
             f"machines a missing cause was named in {all_at_once} tests where most of them work all parts, and in "
-            f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add} at least"
+            f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add}"
         )
-    worst = spots[0].state if spots else "no state in particular"
+    worst = spots[0].state if spots else ""
     logged = ""
     log = to_log(first, channels) if first is not None and first.drop >= WORTH_A_TEST else None
     if log is not None:
@@ -215,24 +246,36 @@ def to_find(
         )
     return (
         f"{counted(tests, 'test')} took part, so more of the same will not tell: {logged}log what is not logged "
-        "yet near the "
-        f"parts that work where the model fails most ({worst})"
+        f"yet near the parts that work where the model fails most{_where(spots)}"
     )
+
+
+def _where(spots: Sequence[WeakSpot]) -> str:
+    """', which is in mix from 2.0 h to 3.5 h (speed 0 to 226 rpm)': states are what parts work by, and no parts."""
+    if not spots:
+        return " (in no state in particular)"
+    worst = spots[0]
+    hours = f"from {worst.from_s / 3600:.1f} h to {worst.to_s / 3600:.1f} h"
+    return f", which is in {worst.test} {hours} (then: {worst.state})"
 
 
 def _one_source_each(sources: Worked) -> str:
     """What tests to add, where there are few."""
-    each = "add tests that each heat one source alone"
     lacking = sources.lacking()
     if not sources.acts:
-        return f"{each} (spindle, one axis, table, hall air), until each acts in two"
+        return "add tests until each source (spindle, one axis, table, hall air) acts in two at least"
     if not lacking:
         worked = listed([s for s in sources.acts if sources.alone.get(s)])
-        return f"{worked} are worked alone in a test already, so add tests that work several, until each acts in two"
+        several = "add tests that work several, until each acts in two at least"
+        return f"{worked} are worked alone in a test already, so {several}"
     once = [s for s in lacking if sources.alone.get(s)]
     never = [s for s in lacking if s not in once]
-    lacks = [f"none is of {listed(never, 'or')} yet" if never else "", f"{listed(once)} in one only" if once else ""]
-    return f"{each} ({'; '.join(filter(None, lacks))}), until each acts in two"
+    acts = "acts" if len(once) == 1 else "act"
+    lacks = [
+        f"none works {listed(never, 'or')} alone yet" if never else "",
+        f"{listed(once)} {acts} in one only" if once else "",
+    ]
+    return f"add tests until each source acts in two at least ({'; '.join(filter(None, lacks))})"
 
 
 def _places(candidate: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> set[str | None]:

@@ -10,13 +10,14 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, in_words, on_locked, rules
+from thermodata.diagnosis.claims.refines import not_advised
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.stated import is_a_cause, is_judged_beside
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.figures import from_to, way
-from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent, listed
@@ -34,7 +35,6 @@ _NOTHING_IS_CUT = ("spindle", "spectrum", "linear_axis", "rotary_axis", "etve")
 _SHOWN = 3  # tests
 ALIKE = 0.1  # of an error: two that differ by less are not told apart
 _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
-_OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
 def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:
@@ -60,16 +60,18 @@ def why(
     by_name: Scored | None = None,
     *,
     of_model: bool = True,
+    against: str = "",
 ) -> str:
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
     told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
-    by_name: what says the same of its channels by a name, and has its probability stated."""
+    by_name: what says the same of its channels by a name, and has its probability stated. against: why a refinement
+    is not to be added, where that is so."""
     numbers = _figures(s, told, judged_beside(s, member, investigation, judgement), investigation, of_model=of_model)
     if member is not None and among(member, judgement.claims):
         return f"{numbers}{_claimed(s, member, investigation, judgement, held)}"
     refused = among(member, judgement.refused)
     if member is not None and member.refines and not refused:
-        return f"{numbers}; a refinement, not claimed as missing: {member.refines}"
+        return f"{numbers}; a refinement, not claimed as missing: {not_advised(member.refines, against)}"
     reason = _refused(s, judgement) if refused else _not_claimed(s, member, investigation, judgement, by_name)
     return f"{numbers}; not claimed: {reason}"
 
@@ -102,7 +104,7 @@ def _claimed(
     if broken:
         said.append(f"; on the open tests {broken[0]}, which the locked ones outweigh")
     if held is not None:
-        said.append(_on_locked(s, held, unit, together=len(judgement.claims) > 1))
+        said.append(said_by_locked(s, held, unit, measure.tests, together=len(judgement.claims) > 1))
     if member.in_place_of:
         said.append(
             f"; taken by the locked tests in place of {member.in_place_of}, which the open ones can't tell it from"
@@ -128,10 +130,11 @@ def _not_claimed(
     beside = is_judged_beside(s, member, chosen=bool(names))
     if failed and s.looked is not None and s.looked.saying:
         return f"{failed[0]}; {on_locked(s.looked)}"
-    if beside:
-        failed += [why for why in [blunt(s)] if why]
+    improbable = [why for why in [blunt(s)] if why] if beside else []
     if failed:
-        return failed[0]
+        return "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
+    if improbable:
+        return improbable[0]
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
     if not beside and all(_left_out(s)[1] < _left_out(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
@@ -164,8 +167,18 @@ def _numbers(s: Scored, told: Scored | None, investigation: Investigation, other
         f"{way(s.error_before, s.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
         f"({from_to(s.error_before, s.error_after, unit)}), with its size from the other {tests} and the known effects "
-        f"fitted to all{_of_all(s, told, tests, unit)}, and it makes {round(s.better * count)} of {count} more "
-        f"probable; {gain_between(s, tests)}"
+        f"fitted to all{_of_all(s, told, tests, unit)}, {_more_probable(s, count)}; {gain_between(s, tests)}"
+    )
+
+
+def _more_probable(s: Scored, count: int) -> str:
+    """In how many of the tests in which it acts; with how that can be where the error does not fall."""
+    better = f"it makes {round(s.better * count)} of {count} more probable"
+    if s.error_after < s.error_before or not s.better:
+        return f"and {better}"
+    return (
+        f"though {better}: that is of their samples with the known effects free to act otherwise in each, the error of "
+        "the course as the others foretell it"
     )
 
 
@@ -248,37 +261,6 @@ def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
     said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
     evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
     return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
-
-
-def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
-    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
-    if held.before is None or held.after is None:
-        return ""
-    what = " with all that is claimed" if together else ""
-    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} the error goes {from_to(held.before, held.after, unit, 'from', 'to')}"
-    way_of = _in_one_way(s.looked) if s.looked is not None else ""
-    shape = held.on(held.asked)
-    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
-        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
-        figures += (
-            f" from their first samples on, and{acts} {from_to(shape.before, shape.after, unit, 'from', 'to')} with a "
-            "free offset a test"
-        )
-    elif way_of:
-        figures += " from their first samples on"
-    return figures + way_of
-
-
-def _in_one_way(looked: Looked) -> str:
-    """How much of it the locked tests bear out, where that is not all."""
-    added = looked.added
-    if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
-        if looked.foretold.falls:
-            falls = in_words(added, looked.unit)
-            return f": added as it stands the error {falls}, and they bear it out only where {_OTHERWISE}"
-        return f", which bear it out as it stands, and not where {_OTHERWISE}"
-    return "" if looked.bears_out else f"; {on_locked(looked)}, which is less than a cause mostly takes away"
 
 
 def _refused(s: Scored, judgement: Judgement) -> str:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from thermodata.report.text.candidates import candidates_text
 from thermodata.report.text.fit import spots_text
+from thermodata.report.text.parameters import parameters_text
 from thermodata.report.text.table import table
-from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.left_over import noise_words
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import to_add
 from thermodata.report.verdict.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
 from thermodata.report.words.glossary import PARTS, explained
-from thermodata.report.words.numbers import duration, heat_lines, number, quantity
+from thermodata.report.words.numbers import duration, heat_lines, number
 from thermodata.report.words.of_response import of_response
-from thermodata.schema.words.sentences import listed, with_count
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,16 +61,7 @@ def _rises_in(result: Confirmed) -> str:
     return f"yet from its first samples on the error rises in {' and in '.join(rising)}" if rising else ""
 
 
-_MOST_TWINS = 3
-_WIDEST = 200  # characters of a cell: none of these rows is cut
 _RISES = 1.02  # less is no rise, as of all tests together (thermodata/diagnosis/locked/held.py)
-BOTH_WITH = (
-    "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
-    "noise that its own effects leave, so that errors before differ between rows, and may exceed the model's own"
-)
-AS_MODELLED = (
-    "before and after are of the model as it stands, one lag an effect; in the other rows its effects may act otherwise"
-)
 _AS_SCORED = "as tests are scored, from their first samples on,"
 _START = "the course fits and where it starts does not (a test that began warm, or noise where its zero is taken)"
 
@@ -154,7 +146,7 @@ def _claims(found: Diagnosis) -> list[str]:
 
 
 def _claim(model: str, c: Candidate) -> str:
-    values = ", ".join(" ".join([name, quantity(p.value, p.unit)]) for name, p in c.parameters.items())
+    values = parameters_text(c)
     return (f"{c.id}: {values}\n" if values else "") + f"to have it: {_add(model, [c])}"
 
 
@@ -192,7 +184,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     figures = [left, _on_locked(found), noise_words(found), explainable(found)]
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
-        parts.append(_candidates_text(_in_table(found, top), found.rmse_um))
+        parts.append(candidates_text(_in_table(found, top), found.rmse_um))
         parts += _claims(found)
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
@@ -254,36 +246,3 @@ def _in_table(found: Diagnosis, top: int) -> list[Candidate]:
     """The first `top`, and below them what is told of all the same: nobody has to look for the row of a sentence."""
     named = {c.rank for c in told(found)}
     return [c for c in found.candidates if c.rank <= top or c.rank in named]
-
-
-def _twins(ids: Sequence[str]) -> str:
-    """'feed_motor:T_motor_Z, lag:T_motor_Z, lag:feed_Z, and 3 more': names are whole, or nobody could ask for them."""
-    return with_count(ids, _MOST_TWINS, ", and")
-
-
-def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str:
-    rows = [
-        {
-            **c.model_dump(),
-            "claimed": "yes" if c.claimed else "refines" if c.refinement else "",
-            "probability": probability(c.probability),
-            "beside": beside(c, left),
-            "equivalent": _twins(c.equivalent),
-        }
-        for c in candidates
-    ]
-    columns = [
-        ("rank", "#"),
-        ("id", "candidate"),
-        ("family", "family"),
-        ("claimed", "claimed"),
-        ("probability", "probability"),
-        ("p_value", "p"),
-        ("rmse_um_before", "before [um]"),
-        ("rmse_um_after", "after [um]"),
-        *([("beside", "both with")] if any(r["beside"] for r in rows) else []),
-        ("equivalent", "can't be told from"),
-    ]
-    told = f"\n\n{BOTH_WITH}" if any(r["beside"] for r in rows) else ""
-    told += "".join(f"\n\n{c.id}: {AS_MODELLED}" for c in candidates if c.as_modelled)
-    return table(rows, columns, widest=_WIDEST) + told

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 SHOWN = 4
 MOST = 3  # in a headline
+NEARLY_ALL = 0.95  # of the response: a bound that excludes next to nothing
+MOSTLY = 0.9  # of it: an effect that does less does not hide it alone
 
 
 def could_hide(found: Diagnosis) -> str:
@@ -106,6 +108,12 @@ def _is_unbound(one: DetectionLimit, response: float) -> bool:
 
 
 def _one(one: DetectionLimit, response: float) -> str:
-    size = "of any size" if _is_unbound(one, response) else f"up to {number(one.least_um)} um"
-    behind = f", for {one.behind} does {percent(1 - one.seen)} of it" if one.behind else ""
-    return f"{_name(one)} {size}{behind}"
+    unbound = _is_unbound(one, response)
+    size = "of any size" if unbound else f"up to {number(one.least_um)} um"
+    if not unbound and (one.least_um or 0.0) >= NEARLY_ALL * response:
+        size += ", nearly all of the response"
+    if not one.behind:
+        return f"{_name(one)} {size}, for slow noise covers {'it' if unbound else 'what is less'}"
+    # an effect that does little more than half of it would not hide it alone
+    rest = " and slow noise covers the rest" if unbound and 1 - one.seen < MOSTLY else ""
+    return f"{_name(one)} {size}, for {one.behind} does {percent(1 - one.seen)} of it{rest}"

@@ -61,7 +61,16 @@ def _not_worth(one: Candidate) -> str:
     return (
         f"{named(one)} goes with what is left, but "
         f"{_rises_on_locked(one) or _rises_on_left_out(one)} with it, so adding it is not advised"
+        f"{_though_locked_fall(one)}"
     )
+
+
+def _though_locked_fall(one: Candidate) -> str:
+    """What speaks for it where locked tests were opened for it and left-out ones speak against it."""
+    before, after = one.locked_shape_um_before, one.locked_shape_um_after
+    if before is None or after is None or after >= before:
+        return ""
+    return f", though locked tests are foretold better ({number(before)} -> {number(after)} um about each one's mean)"
 
 
 def _rises_on_left_out(one: Candidate) -> str | None:

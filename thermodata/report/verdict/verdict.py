@@ -11,6 +11,7 @@ from thermodata.report.verdict.left_over import as_of_nothing, left_over, offere
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
+from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
 from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import listed, with_count
@@ -28,7 +29,7 @@ _MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
 AS_DATED = " as the logs are dated"
-NO_MORE = "the open tests show no missing cause apart from what the model has in part"
+NO_MORE = "the open tests show no missing cause that the model has nothing of"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
 FAR = 2.0
@@ -152,11 +153,7 @@ def _one_is_seen(found: Diagnosis) -> bool:
 def clock_in_doubt(found: Diagnosis) -> str:
     """'a clock may be off in feed20, ...': a hint that the answer did not act upon, told before all that hangs on it;
     '' where there is none."""
-    moved = [] if found.put_right is None else found.put_right.clocks
-    places = {(c.campaign, c.test) for c in moved}
-    open_still = [a for a in found.artefacts if a.kind == "clock_offset"]
-    open_still = [a for a in open_still if not places & {(a.campaign, a.test or ""), ("", ""), (a.campaign, "")}]
-    tests = list(dict.fromkeys(a.test or "all tests" for a in open_still))
+    tests = clocks_in_doubt(found.artefacts, found.put_right)
     if not tests:
         return ""
     return (
@@ -180,7 +177,7 @@ def _not_excluded(found: Diagnosis) -> str:
     first = _not_excluded_one(found)
     if first is None:
         return ""
-    said = ", ".join(filter(None, [_or_elsewhere(first), _how_sure(first), _not_told_from(first)]))
+    said = _with_probability(first)
     stops = next((r.fails for r in first.rungs if not r.holds and r.fails), None)
     return f"not excluded: {said}{f', but {stops}' if stops and _is_likely(first) else ''}"
 
@@ -196,15 +193,24 @@ def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
 
 
 def causes(claims: Sequence[Candidate]) -> str:
-    """'screw (T_nut), probability 94 %, not told from motor (T_mot)', the same wherever a claim is told."""
-    names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c), _not_told_from(c)])) for c in claims]
+    """'screw (T_nut), probability 94 % (that it is one of these), not told from motor (T_mot)', the same
+    wherever a claim is told."""
+    names = [_with_probability(c) for c in claims]
     # commas stand within a name and its probability
     return names[0] if len(names) == 1 else ", and ".join([", ".join(names[:-1]), names[-1]])
 
 
+def _with_probability(one: Candidate) -> str:
+    """A twin that is named beside it counts as right in what is known of such probabilities."""
+    twins = _not_told_from(one)
+    of = " (that it is one of these)" if twins else ""
+    sure = "" if one.probability is None else f"probability {probability(one.probability)}{of}"
+    return ", ".join(filter(None, [_or_elsewhere(one), sure, twins]))
+
+
 def _or_elsewhere(one: Candidate) -> str:
     told = named(one) + _by_name(one)
-    return f"{told} or {other_heat(one)}" if one.unread else told
+    return f"{told} or {other_heat(one)}, which {listed(one.drivers)} can't tell from it" if one.unread else told
 
 
 def _by_name(one: Candidate) -> str:
@@ -228,10 +234,6 @@ def as_named(candidate: str) -> str:
     """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
     effect, _, channels = candidate.partition(":")
     return f"{effect} ({channels.replace(',', ', ')})" if channels else effect
-
-
-def _how_sure(one: Candidate) -> str:
-    return "" if one.probability is None else f"probability {probability(one.probability)}"
 
 
 def _unclaimed(found: Diagnosis) -> str:

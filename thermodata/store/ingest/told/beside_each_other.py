@@ -44,6 +44,11 @@ class OddClock:
             "logged"
         )
 
+    @property
+    def seen(self) -> str:
+        """What was seen, without what to try."""
+        return self._seen(self.tests)
+
     def beside(self, declared: Declared) -> list[str]:
         """A sentence for the tests in which no clock of the two is declared, and one for each word of the others."""
         told: dict[tuple[tuple[str, float], ...], list[str]] = {}

@@ -1,0 +1,58 @@
+"""What the locked tests say of a claim, in words."""
+
+from __future__ import annotations
+
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, in_words, on_locked
+from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.weigh.figures import from_to, way
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.words.sentences import in_percent
+
+_OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
+
+
+def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, together: bool) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by. tests: what is left out
+    of the open ones, in a word."""
+    if held.before is None or held.after is None:
+        return ""
+    what = " with all that is claimed" if together else ""
+    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
+    figures = f"; on the locked tests{what} the error goes {from_to(held.before, held.after, unit, 'from', 'to')}"
+    way_of = _in_one_way(s, s.looked, tests) if s.looked is not None else ""
+    shape = held.on(held.asked)
+    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
+        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
+        figures += (
+            f" from their first samples on, and{acts} {from_to(shape.before, shape.after, unit, 'from', 'to')} with a "
+            "free offset a test"
+        )
+    elif way_of:
+        figures += " from their first samples on"
+    return figures + way_of
+
+
+def _in_one_way(s: Scored, looked: Looked, tests: str) -> str:
+    """How much of it the locked tests bear out, where that is not all."""
+    added = looked.added
+    if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
+        if looked.foretold.falls:
+            falls = in_words(added, looked.unit)
+            return f": added as it stands the error {falls}, and they bear it out only where {_OTHERWISE}"
+        return f", which bear it out as it stands, and not where {_OTHERWISE}"
+    if looked.bears_out:
+        return ""
+    return f"; {on_locked(looked)}, which is less than a cause mostly takes away, but {_outweighs(s, tests)}"
+
+
+def _outweighs(s: Scored, tests: str) -> str:
+    """What of the open tests outweighs locked ones that speak against a claim."""
+    count = int(s.acts.sum())
+    gain = f", with a gain that differs by {in_percent(s.spread)}" if count >= LEAST_TESTS else ""
+    return (
+        f"the open ones outweigh that: there the error {way(s.error_before, s.error_after)} by {in_percent(s.drop)} in "
+        f"the {count} {tests if count > 1 else tests[:-1]} in which it acts{gain}, so that, all weighed, its "
+        f"probability is {in_percent(probability(s))}"
+    )
