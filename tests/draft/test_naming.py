@@ -8,9 +8,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from thermodata.draft.signals.guess import guess
-from thermodata.draft.signals.units import from_name, quantities_of
+from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.signals.values import joined, values_of
 from thermodata.draft.words.naming import channel_name, plain, words
+from thermodata.reader.text.names.unit_in_name import unit_at_end
 from thermodata.schema.files.campaign import NAME, RESERVED_NAMES
 
 EASY = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -73,7 +74,7 @@ def test_a_syllable_of_hangul_stays_whole() -> None:
 
 
 def test_units_in_names_and_units_that_say_nothing() -> None:
-    assert (from_name("x_mm"), from_name("level.mm"), from_name("F_mm_min"), from_name("Motor")) == (
+    assert (unit_at_end("x_mm"), unit_at_end("level.mm"), unit_at_end("F_mm_min"), unit_at_end("Motor")) == (
         "mm",
         "mm",
         "mm/min",
