@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import lzma
 import os
+import re
 import tarfile
 import zipfile
 import zlib
+from collections import Counter
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
@@ -23,6 +25,8 @@ ARCHIVES = (_ZIP, ".tar", ".tgz", ".tbz2", ".txz", ".tar.gz", ".tar.bz2", ".tar.
 """What the names of archives end with, in lower case."""
 _MAGIC = (b"PK\x03\x04", b"PK\x05\x06")  # the latter of one that holds nothing
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2)  # others unpack in what memory they ask for
+_NO_COLON = os.name == "nt"  # in names of files
+_DRIVE = re.compile("[A-Za-z]:/")
 _SHOWN = 3
 _WRONG = (
     zipfile.BadZipFile,
@@ -163,16 +167,24 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     if len(members) > MOST_FILES or whole > most:
         raise more_than_logs(name, most, len(members), whole)
     found = Listed(name)
+    last, again = {_path(m): m for m in members}, "there are two of this name"
+    twice = {path for path, n in Counter(map(_path, members)).items() if n > 1 and kind == "ZIP"}
     for m in members:
-        path = m.name.replace("\\", "/").removeprefix("./")
+        path = _path(m)
         parts = path.split("/")
         if any(p.startswith((".", "~$")) and p != ".." for p in parts) or "__MACOSX" in parts:
             continue
-        if (why := _misnamed(path, found) or m.why) is not None:
-            found.refused[path.lstrip("/").replace(":", "_")] = why
+        if kind == "TAR" and m is not last[path]:  # as 'tar -r' and 'tar -u' leave it, and unpacking takes the last
+            found.refused[f"{path.lstrip('/')} (earlier)"] = "another of its name stands behind it: that one is read"
+        elif (why := _misnamed(path) or m.why or (again if path in twice else None)) is not None:
+            found.refused[path.lstrip("/").replace(":", "_" if _NO_COLON else ":")] = why
         else:
             found.sizes[path], found.stored[path], found.at[path] = m.size, m.name, m.at
     return found
+
+
+def _path(member: Member) -> str:
+    return member.name.replace("\\", "/").removeprefix("./")
 
 
 def _unreadable(name: str, kind: str, error: Exception) -> FormatError:
@@ -192,11 +204,15 @@ def _locked(member: zipfile.ZipInfo) -> str | None:
     return None if member.compress_type in _METHODS else "it is packed in an unusual way"
 
 
-def _misnamed(path: str, found: Listed) -> str | None:
+def _misnamed(path: str) -> str | None:
     """Why a file in an archive is not read for its name; None where it is."""
     pure = PurePosixPath(path)
-    if pure.is_absolute() or ".." in pure.parts or ":" in path or not path.isprintable() or str(pure) != path:
+    if pure.is_absolute() or ".." in pure.parts or _DRIVE.match(path):
         return "its name leads elsewhere"
-    if len(os.fsencode(pure.name)) > 200:
-        return "its name is too long"
-    return "there are two of this name" if path in found.stored else None
+    if not path.isprintable():
+        return "its name holds what can't be shown"
+    if _NO_COLON and ":" in path:
+        return "its name holds ':', as no name does here"
+    if str(pure) != path:
+        return "its name holds '//' or '/./'"
+    return "its name is too long" if len(os.fsencode(pure.name)) > 200 else None
