@@ -156,6 +156,31 @@ def test_what_lies_beside_what_it_was_packed_of_is_a_copy(tmp_path: Path, say: S
     }
 
 
+def test_a_log_that_was_packed_twice_is_one(tmp_path: Path) -> None:
+    texts = {f"heat{k}.csv": log(k) for k in (1, 2)}
+    for name, text in texts.items():
+        written(tmp_path / "mixed" / f"{name}.gz", gzip.compress(text.encode()))
+        written(tmp_path / "mixed" / f"{name}.xz", lzma.compress(text.encode()))
+    tarred(tmp_path / "mixed/day.tar", dict(texts))
+    zipped(tmp_path / "both/day.zip", dict(texts))
+    tarred(tmp_path / "both/day.tar.gz", dict(texts))
+    zipped(tmp_path / "both/first.zip", {"heat1.csv": texts["heat1.csv"]})
+    for name, copies in (
+        ("mixed", {"day.tar", "heat1.csv.xz", "heat2.csv.xz"}),
+        ("both", {"day.zip", "first.zip/heat1.csv"}),
+    ):
+        draft = draft_files(tmp_path / name).draft
+        assert [t.id for t in draft.tests] == ["heat1", "heat2"]
+        assert {p for p, why in draft.not_used if "a copy of" in why} == copies
+
+
+def test_a_log_that_two_archives_of_other_tests_share_is_one_of_each(tmp_path: Path) -> None:
+    told = "time [s],n [rpm]\n" + "".join(f"{60 * i},{3000 if i > 9 else 0}\n" for i in range(60))
+    for k in (1, 2):
+        zipped(tmp_path / f"heat{k}.zip", {"temperatures.csv": log(k), "speed.csv": told})
+    assert not [p for p, why in draft_files(tmp_path).draft.not_used if "a copy of" in why]
+
+
 def test_archives_that_hold_no_log_are_a_line_each(tmp_path: Path) -> None:
     (tmp_path / "heat1.csv").write_text(log(1))
     zipped(tmp_path / "photos.zip", {f"p{i}.jpg": b"\xff\xd8\xff" + bytes(20) for i in range(40)})

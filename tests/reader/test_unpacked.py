@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import gzip
+import io
 import multiprocessing
 import os
 import signal
+import tarfile
 import tempfile
 import threading
 import zipfile
@@ -144,6 +146,29 @@ def test_the_directory_of_an_archive_is_read_as_often_whatever_it_holds(
         with held(path) as real:
             assert real.read_bytes() == files[path.name]
     assert len(opened) <= 2  # to list it, and to read it
+
+
+def test_a_packed_archive_that_outgrows_what_is_kept_is_unpacked_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    files = {f"heat{k}.csv": LOG.replace("20.", f"{30 + k}.").encode() for k in range(6)}
+    with tarfile.open(tmp_path / "day.tar.gz", "w:gz") as archive:
+        for name, content in files.items():
+            member = tarfile.TarInfo(name)
+            member.size = len(content)
+            archive.addfile(member, io.BytesIO(content))
+    made, names = unpacked._made, []
+
+    def counted(archive: Path, name: str, status: os.stat_result) -> Any:
+        names.append(name)
+        return made(archive, name, status)
+
+    monkeypatch.setattr(unpacked, "_made", counted)
+    monkeypatch.setattr(unpacked, "_KEPT_BYTES", len(LOG))
+    for path in each_in(tmp_path / "day.tar.gz"):
+        with held(path) as real:
+            assert real.read_bytes() == files[path.name]
+    assert sorted(names) == ["", *files]
 
 
 def test_an_archive_that_was_written_anew_is_read_anew(tmp_path: Path) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import shutil
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -117,6 +119,50 @@ def test_conditions_come_from_names_and_a_table_in_an_archive(tmp_path: Path, ar
     found = load_campaign(loose)
     assert {t.id: t.conditions for t in found.tests} == {t.id: t.conditions for t in want.tests}
     assert {t.files["nc"] for t in found.tests} == {f"{archive}/S3000_F500_07.csv", f"{archive}/S6000_F750_8.csv"}
+
+
+def _two_archives(tmp_path: Path) -> Path:
+    for k in (0, 1):
+        with zipfile.ZipFile(tmp_path / f"day{k}.zip", "w") as archive:
+            archive.writestr(f"S3000_{k}.csv", "x")
+    path = tmp_path / "c.yaml"
+    path.write_text(
+        "schema: thermodata/campaign/1\nid: c\nsources: {nc: {reader: cnc}}\n"
+        'tests_from: {files: "day*.zip/S{speed}_{nr}.csv", set: {kind: spindle}}\n'
+    )
+    return path
+
+
+def test_a_damaged_archive_of_tests_is_told(tmp_path: Path) -> None:
+    path = _two_archives(tmp_path)
+    assert len(load_campaign(path).tests) == 2
+    (tmp_path / "day1.zip").write_bytes((tmp_path / "day1.zip").read_bytes()[:-30])
+    with pytest.raises(SpecError, match="an archive of tests can't be read") as refused:
+        load_campaign(path)
+    assert refused.value.got == "day1.zip: File is not a zip file"
+
+
+def test_a_file_that_an_archive_refuses_is_a_test_all_the_same(tmp_path: Path) -> None:
+    path = _two_archives(tmp_path)
+    data = bytearray((tmp_path / "day1.zip").read_bytes())
+    data[data.index(b"PK\x01\x02") + 8] |= 1  # encrypted
+    (tmp_path / "day1.zip").write_bytes(data)
+    assert [t.files for t in load_campaign(path).tests] == [
+        {"nc": "day0.zip/S3000_0.csv"},
+        {"nc": "day1.zip/S3000_1.csv"},
+    ]
+
+
+def test_a_packed_table_of_tests_that_is_cut_is_told(tmp_path: Path) -> None:
+    path = _from_names(tmp_path)
+    packed = gzip.compress(b"nr;air;speed\n7;21.5;3000\n8;22,5;6100\n" + b"9;%d;3000\n" * 99)
+    (tmp_path / "tests.csv.gz").write_bytes(packed)
+    path.write_text(path.read_text().replace("tests.csv", "tests.csv.gz"))
+    assert len(load_campaign(path).tests) == 2
+    (tmp_path / "tests.csv.gz").write_bytes(packed[:-9])
+    with pytest.raises(SpecError, match="cannot read the table of tests") as refused:
+        load_campaign(path)
+    assert "cut off" in (refused.value.got or "")
 
 
 def test_conditions_come_from_file_names_and_the_table(tmp_path: Path) -> None:

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 import lzma
 import os
+import re
 import tarfile
 import zipfile
 import zlib
-from contextlib import closing
+from collections import Counter
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
-from typing import IO, cast
 
 from thermodata.archive.packed_by import is_tar, packed_by
-from thermodata.archive.packers import OPEN, Unpacking
+from thermodata.archive.packers import OPEN
 from thermodata.archive.regular import opened
-from thermodata.archive.too_much import most_of
+from thermodata.archive.tarred import Member, tarred
+from thermodata.archive.too_much import MOST_FILES, more_than_logs, most_of
 from thermodata.errors import FormatError
 
 _ZIP = ".zip"
 ARCHIVES = (_ZIP, ".tar", ".tgz", ".tbz2", ".txz", ".tar.gz", ".tar.bz2", ".tar.xz")
 """What the names of archives end with, in lower case."""
 _MAGIC = (b"PK\x03\x04", b"PK\x05\x06")  # the latter of one that holds nothing
-_MOST = 20_000  # files in an archive
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2)  # others unpack in what memory they ask for
+_NO_COLON = os.name == "nt"  # in names of files
+_DRIVE = re.compile("[A-Za-z]:/")
 _SHOWN = 3
 _WRONG = (
     zipfile.BadZipFile,
@@ -34,6 +36,7 @@ _WRONG = (
     ValueError,
     EOFError,
     NotImplementedError,
+    RecursionError,
 )  # of an archive
 
 
@@ -148,22 +151,12 @@ def listed(archive: Path) -> Listed:
     return _listed(str(archive), same(archive.stat()))
 
 
-@dataclass(frozen=True, slots=True)
-class _Member:
-    """A file as an archive has it. why: it is not read; at: in a TAR archive, unpacked."""
-
-    name: str
-    size: int
-    why: str | None
-    at: int = 0
-
-
 @lru_cache(maxsize=64)
 def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     name, most = Path(archive).name, most_of(mark[2])
     kind = "ZIP" if name.lower().endswith(_ZIP) else "TAR"
     try:
-        members = _zipped(archive) if kind == "ZIP" else _tarred(archive, most)
+        members = _zipped(archive) if kind == "ZIP" else tarred(Path(archive), most)
     except OSError as error:
         if error.errno is not None:  # of the disk
             raise
@@ -171,25 +164,27 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     except _WRONG as error:
         raise _unreadable(name, kind, error) from None
     whole = sum(m.size for m in members)
-    if len(members) > _MOST or whole > most:
-        raise FormatError(
-            "an archive that unpacks to more than logs do",
-            where=name,
-            expected=f"at most {_MOST} files and {most} bytes",
-            got=f"{len(members)} files and {whole} bytes",
-            hint="unpack it yourself, beside the others",
-        )
+    if len(members) > MOST_FILES or whole > most:
+        raise more_than_logs(name, most, len(members), whole)
     found = Listed(name)
+    last, again = {_path(m): m for m in members}, "there are two of this name"
+    twice = {path for path, n in Counter(map(_path, members)).items() if n > 1 and kind == "ZIP"}
     for m in members:
-        path = m.name.replace("\\", "/").removeprefix("./")
+        path = _path(m)
         parts = path.split("/")
         if any(p.startswith((".", "~$")) and p != ".." for p in parts) or "__MACOSX" in parts:
             continue
-        if (why := _misnamed(path, found) or m.why) is not None:
-            found.refused[path.lstrip("/").replace(":", "_")] = why
+        if kind == "TAR" and m is not last[path]:  # as 'tar -r' and 'tar -u' leave it, and unpacking takes the last
+            found.refused[f"{path.lstrip('/')} (earlier)"] = "another of its name stands behind it: that one is read"
+        elif (why := _misnamed(path) or m.why or (again if path in twice else None)) is not None:
+            found.refused[path.lstrip("/").replace(":", "_" if _NO_COLON else ":")] = why
         else:
             found.sizes[path], found.stored[path], found.at[path] = m.size, m.name, m.at
     return found
+
+
+def _path(member: Member) -> str:
+    return member.name.replace("\\", "/").removeprefix("./")
 
 
 def _unreadable(name: str, kind: str, error: Exception) -> FormatError:
@@ -198,9 +193,9 @@ def _unreadable(name: str, kind: str, error: Exception) -> FormatError:
     )
 
 
-def _zipped(archive: str) -> list[_Member]:
+def _zipped(archive: str) -> list[Member]:
     with zipfile.ZipFile(archive) as zipped:
-        return [_Member(m.filename, m.file_size, _locked(m)) for m in zipped.infolist() if not m.is_dir()]
+        return [Member(m.filename, m.file_size, _locked(m)) for m in zipped.infolist() if not m.is_dir()]
 
 
 def _locked(member: zipfile.ZipInfo) -> str | None:
@@ -209,30 +204,15 @@ def _locked(member: zipfile.ZipInfo) -> str | None:
     return None if member.compress_type in _METHODS else "it is packed in an unusual way"
 
 
-def _tarred(archive: str, most: int) -> list[_Member]:
-    """No further than to where there are too many files, or bytes."""
-    with opened(Path(archive)) as file:
-        packer = packed_by(file.read(16))
-        file.seek(0)
-        with closing(cast(Unpacking, file) if packer is None else OPEN[packer](file)) as stream:
-            found, size = list[_Member](), 0
-            with tarfile.open(fileobj=cast(IO[bytes], stream), mode="r|") as tarred:
-                for m in tarred:
-                    if m.isdir():
-                        continue
-                    why = None if m.isreg() and not m.issparse() else "it is a link, or no plain file"
-                    found.append(_Member(m.name, m.size, why, m.offset_data))
-                    size += m.size
-                    if len(found) > _MOST or size > most:
-                        break
-            return found
-
-
-def _misnamed(path: str, found: Listed) -> str | None:
+def _misnamed(path: str) -> str | None:
     """Why a file in an archive is not read for its name; None where it is."""
     pure = PurePosixPath(path)
-    if pure.is_absolute() or ".." in pure.parts or ":" in path or not path.isprintable() or str(pure) != path:
+    if pure.is_absolute() or ".." in pure.parts or _DRIVE.match(path):
         return "its name leads elsewhere"
-    if len(os.fsencode(pure.name)) > 200:
-        return "its name is too long"
-    return "there are two of this name" if path in found.stored else None
+    if not path.isprintable():
+        return "its name holds what can't be shown"
+    if _NO_COLON and ":" in path:
+        return "its name holds ':', as no name does here"
+    if str(pure) != path:
+        return "its name holds '//' or '/./'"
+    return "its name is too long" if len(os.fsencode(pure.name)) > 200 else None

@@ -140,10 +140,31 @@ def _copy(archive: Path, name: str) -> _Copy:
     if key in _copies:
         _copies.move_to_end(key)
         return _copies[key]
-    _drop(lambda: len(_copies) < _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES)
-    made = _made(archive, name, status)
+    with _whole(archive, name):
+        _drop(lambda: len(_copies) < _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES)
+        made = _made(archive, name, status)
     _copies[key] = made
     return made
+
+
+@contextmanager
+def _whole(archive: Path, name: str) -> Iterator[Path]:
+    """Where the bytes of an archive of a file are. A packed TAR archive is unpacked as a whole, once, and not anew for
+    each of its files: its copy stays while one is taken out."""
+    if not name or archive.suffix.lower() == ".zip" or not _is_packed(archive):
+        yield archive
+        return
+    copy = _copy(archive, "")
+    copy.held += 1
+    try:
+        yield copy.path
+    finally:
+        copy.held -= 1
+
+
+def _is_packed(archive: Path) -> bool:
+    with opened(archive) as file:
+        return packed_by(file.read(16)) is not None
 
 
 def _drop(enough: Callable[[], bool]) -> None:
@@ -241,31 +262,22 @@ def _parts(archive: Path, name: str) -> Generator[bytes]:
     found = listed(archive)
     member = found.member(name)
     if archive.suffix.lower() != ".zip":
-        yield from _of_tar(archive, found.at[name], found.sizes[name])
+        yield from _of_tar(archive, name, found.at[name], found.sizes[name])
         return
     with _zipped(str(archive), same(archive.stat())).open(member) as stream:
         while part := stream.read(_PART):
             yield part
 
 
-def _of_tar(archive: Path, at: int, size: int) -> Iterator[bytes]:
-    """A file in an archive, which is unpacked as a whole once, and not anew for each."""
-    with opened(archive) as file:
-        copy = _copy(archive, "") if packed_by(file.read(16)) is not None else None
-    if copy is not None:
-        copy.held += 1
-    try:
-        with (archive if copy is None else copy.path).open("rb") as file:
-            file.seek(at)
-            while size:
-                part = file.read(min(size, _PART))
-                if not part:
-                    raise EOFError("the archive ends within the file")
-                size -= len(part)
-                yield part
-    finally:
-        if copy is not None:
-            copy.held -= 1
+def _of_tar(archive: Path, name: str, at: int, size: int) -> Iterator[bytes]:
+    with _whole(archive, name) as real, real.open("rb") as file:
+        file.seek(at)
+        while size:
+            part = file.read(min(size, _PART))
+            if not part:
+                raise EOFError("the archive ends within the file")
+            size -= len(part)
+            yield part
 
 
 @lru_cache(maxsize=4)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import cache, partial
 from pathlib import Path, PurePosixPath
 
 from thermodata.archive.members import archive_of, size_of
@@ -18,37 +18,88 @@ _SHOWN = 3
 
 def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
     """Packed file -> the one that is called as it was before, and holds the same: 'a.csv.gz' -> 'a.csv',
-    'day.zip/a.csv' -> 'day/a.csv'."""
-    loose: dict[str, list[PurePosixPath]] = {}
-    packed = []
+    'day.zip/a.csv' -> 'day/a.csv', 'a.csv.xz' -> 'a.csv.gz' beside it. Of two archives only where all that is in one
+    is in the other: logs of two tests may well be equal, as a speed that both were told."""
+    size, digest = cache(partial(_size, folder)), cache(partial(_digest, folder))
+    new = partial(_Known, size, digest)
+    known = new()
+    archives: dict[Path, list[PurePosixPath]] = {}
+    alone = []
     for path in paths:
-        if as_unpacked(path) != path or archive_of(folder / path) is not None:
-            packed.append(path)
+        if (inside := archive_of(folder / path)) is not None:
+            archives.setdefault(inside[0], []).append(path)
+        elif as_unpacked(path) != path:
+            alone.append(path)
         else:
-            loose.setdefault(path.name, []).append(path)
-    found = {}
-    digest, size = cache(_digest), cache(_size)  # a log of one length lies in the folder of each test
-    for path in packed:
-        others = loose.get(as_unpacked(path).name, ())
-        if archive_of(folder / path) is not None:
-            unpacked = _size(folder / path)
-            others = [o for o in others if size(folder / o) == unpacked]
-        of = next((o for o in others if digest(folder / path) == digest(folder / o) is not None), None)
-        if of is not None:
+            known.add(path)
+    found = {p: of for p in alone if (of := known.like(p)) is not None}
+    beside: dict[PurePosixPath, _Known] = {}
+    for path in (p for p in alone if p not in found):
+        if (of := beside.setdefault(path.parent, new()).like(path)) is not None:
             found[path] = of
+        else:
+            beside[path.parent].add(path)
+    for path in (p for p in alone if p not in found):
+        known.add(path)
+    whole: list[_Known] = []
+    for files in sorted(archives.values(), key=len, reverse=True):
+        copies = {p: of for p in files if (of := known.like(p)) is not None}
+        rest = [p for p in files if p not in copies]
+        found |= copies | next((again for other in whole if (again := other.all_like(rest))), {})
+        whole.append(new())
+        for path in (p for p in rest if p not in found):
+            whole[-1].add(path)
     return found
 
 
-def _size(path: Path) -> int | None:
+class _Known:
+    """Files by the names of their logs."""
+
+    def __init__(
+        self, size: Callable[[PurePosixPath], int | None], digest: Callable[[PurePosixPath], bytes | None]
+    ) -> None:
+        self._size, self._digest, self._named = size, digest, dict[str, list[PurePosixPath]]()
+
+    def add(self, path: PurePosixPath) -> None:
+        self._named.setdefault(as_unpacked(path).name, []).append(path)
+
+    def like(self, path: PurePosixPath) -> PurePosixPath | None:
+        """One that is called as the file was before it was packed, and holds the same."""
+        fits = self._fitting(path)
+        mine = self._digest(path) if fits else None
+        return next((o for o in fits if self._digest(o) == mine is not None), None)
+
+    def all_like(self, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+        """The same of all that can be read in an archive; none where one has no such file."""
+        paths = [p for p in paths if self._size(p) is not None]
+        if not all(map(self._fitting, paths)):
+            return {}
+        found: dict[PurePosixPath, PurePosixPath] = {}
+        for path in paths:
+            if (of := self.like(path)) is None:
+                return {}
+            found[path] = of
+        return found
+
+    def _fitting(self, path: PurePosixPath) -> list[PurePosixPath]:
+        """Those of its name that may hold the same, by their sizes."""
+        size, named = self._size(path), self._named.get(as_unpacked(path).name, ())
+        return [o for o in named if size is None or self._size(o) in (size, None)]
+
+
+def _size(folder: Path, path: PurePosixPath) -> int | None:
+    """How long a log is, unpacked; None where it can't be read, or only unpacking it would tell."""
+    if archive_of(folder / path) is None and as_unpacked(path) != path:
+        return None
     try:
-        return size_of(path)
+        return size_of(folder / path)
     except (FormatError, OSError):
         return None
 
 
-def _digest(path: Path) -> bytes | None:
+def _digest(folder: Path, path: PurePosixPath) -> bytes | None:
     try:
-        with held(path) as real, real.open("rb") as file:
+        with held(folder / path) as real, real.open("rb") as file:
             return hashlib.file_digest(file, "sha256").digest()
     except (FormatError, OSError):
         return None

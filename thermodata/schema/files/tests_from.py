@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from thermodata.archive.members import is_there
+from thermodata.archive.members import listed
 from thermodata.archive.patterns import in_archives
-from thermodata.archive.unpacked import held
+from thermodata.archive.unpacked import held, is_cut
 from thermodata.errors import FormatError, SpecError, ThermodataError, nearest
 from thermodata.schema.files.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.strict.explain import validate
@@ -58,11 +58,14 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
     table = _read_table(spec, folder, document, place) if spec.table else {}
     tests = []
     looked_for = _FIELD.sub("*", spec.files)
-    packed = [folder / name for name in in_archives(folder, looked_for)]
+    packed = {folder / name for name in in_archives(folder, looked_for)}
     for path in sorted({*folder.glob(looked_for), *packed}):
         name = path.relative_to(folder).as_posix()
         match = pattern.fullmatch(name)
-        if match is None or not is_there(path) or folder not in path.resolve().parents:
+        if path in packed and path.is_file():
+            _must_be_whole(path, document, place)
+        there = path in packed or path.is_file()  # one that an archive refuses is told by who reads it
+        if match is None or not there or folder not in path.resolve().parents:
             continue
         fields = match.groupdict()
         conditions = _conditions(spec, fields, table, name, document, place)
@@ -84,6 +87,19 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
                 hint=error.hint,
             ) from None
     return tests
+
+
+def _must_be_whole(archive: Path, document: Document, place: Place) -> None:
+    """SpecError for an archive that can't be read, for it stands for tests that nobody can name."""
+    try:
+        listed(archive)
+    except (OSError, FormatError) as error:
+        raise SpecError(
+            "an archive of tests can't be read",
+            where=document.where((*place, "files")),
+            got=f"{archive.name}: {error.got or error.what if isinstance(error, FormatError) else error.strerror}",
+            hint="mend it, fetch it anew, or move it out of the folder",
+        ) from None
 
 
 def _source_of(campaign: Campaign, name: str, test: str) -> str | None:
@@ -199,6 +215,8 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
     inside(spec.table.file, document, (*place, "table", "file"))
     try:
         with held(folder / spec.table.file) as path:
+            if is_cut(folder / spec.table.file):
+                raise ValueError("the packed file is cut off: rows, or the end of one, are missing")
             frame = _frame(path, spec.table.sheet)
     except (OSError, ValueError, ImportError, FormatError) as error:
         raise SpecError(

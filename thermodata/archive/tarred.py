@@ -1,0 +1,120 @@
+"""What a TAR archive holds. Its headers are no more trusted than its files: they can be made as large, and as many."""
+
+from __future__ import annotations
+
+import tarfile
+from contextlib import closing
+from dataclasses import dataclass
+from io import BufferedReader
+from pathlib import Path
+from typing import IO, Any, cast
+
+from thermodata.archive.packed_by import packed_by
+from thermodata.archive.packers import OPEN, Unpacking
+from thermodata.archive.regular import opened
+from thermodata.archive.too_much import MOST_FILES, more_than_logs
+
+_PART = 1 << 18
+_HEADER, _HEADERS = 1 << 20, 128 << 20  # [bytes] of one file, and of all: a long name is some 1.5 kB
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A file as an archive has it. why: it is not read; at: in a TAR archive, unpacked."""
+
+    name: str
+    size: int
+    why: str | None
+    at: int = 0
+
+
+def tarred(archive: Path, most: int) -> list[Member]:
+    """No further than to where there are too many files, or bytes: FormatError. TarError, EOFError and what unpacks say
+    where it is damaged, or ends before its end mark: what stood behind would be missing without a word."""
+    with opened(archive) as file:
+        packer = packed_by(file.read(16))
+        file.seek(0)
+        with closing(cast(Unpacking, file) if packer is None else OPEN[packer](file)) as stream:
+            return _members(_Forward(stream, archive.name, most))
+
+
+def _members(stream: _Forward) -> list[Member]:
+    found, count, size = list[Member](), 0, 0
+    with tarfile.open(fileobj=cast(IO[bytes], stream), mode="r:") as tar:
+        while (m := tar.next()) is not None:
+            cast(Any, tar).members.clear()  # each has a copy of what the archive says of all
+            stream.begin_header()
+            count += 1
+            if m.size < 0:
+                raise tarfile.ReadError(f"a file of {m.size} bytes, by the header at byte {m.offset}")
+            if not m.isdir():
+                held = 0 if m.issparse() else m.size  # no gap is unpacked
+                found.append(Member(m.name, held, _refused(m), m.offset_data))
+                size += held
+            if count > MOST_FILES or size > stream.most:
+                raise more_than_logs(stream.name, stream.most, count, size)
+    stream.must_end()
+    return found
+
+
+def _refused(member: tarfile.TarInfo) -> str | None:
+    if member.issparse():
+        return "it is packed without its gaps, as 'tar --sparse' does"
+    return None if member.isreg() else "it is a link, or no plain file"
+
+
+class _Forward:
+    """An archive for `tarfile`: never back, never on beyond what may be unpacked, never short without an error."""
+
+    def __init__(self, stream: Unpacking, name: str, most: int) -> None:
+        self.name, self.most = name, most
+        self._stream, self._at, self._block = stream, 0, b""
+        self._header = self._headers = 0
+
+    def tell(self) -> int:
+        return self._at
+
+    def begin_header(self) -> None:
+        """What is read from here on is of the next file."""
+        self._header = 0
+
+    def read(self, size: int) -> bytes:
+        """Bytes of a header. EOFError where the archive ends within them."""
+        if not 0 <= size <= _HEADER - self._header or size > _HEADERS - self._headers:
+            raise tarfile.ReadError(f"the header at byte {self._at} is damaged, or of {size} bytes and more")
+        self._header, self._headers = self._header + size, self._headers + size
+        self._block = self._read(size)
+        if len(self._block) < size:
+            raise EOFError(f"it ends at byte {self._at}, before its end mark: what came behind is lost")
+        return self._block
+
+    def seek(self, to: int) -> int:
+        """On to the next header. Beyond the end nothing is read."""
+        if to < self._at:
+            raise tarfile.ReadError(f"the header at byte {self._at} leads back to byte {to}")
+        if isinstance(self._stream, BufferedReader):
+            self._at = self._stream.seek(to)
+            return to
+        while self._at < to and self._read(min(to - self._at, _PART)):
+            pass
+        return self._at
+
+    def must_end(self) -> None:
+        """ReadError where the last header read is no end mark, or more than zeros stands behind it."""
+        if any(self._block):
+            raise tarfile.ReadError(f"the header at byte {self._at - len(self._block)} is damaged")
+        while part := self._read(_PART):
+            if any(part):
+                raise tarfile.ReadError(
+                    "more stands behind its end mark: of two archives in one, 'tar -i' unpacks both"
+                )
+
+    def _read(self, size: int) -> bytes:
+        parts, missing = [], size
+        while missing and (part := self._stream.read(missing)):
+            parts.append(part)
+            missing -= len(part)
+            self._at += len(part)
+            if self._at > self.most and not isinstance(self._stream, BufferedReader):
+                raise more_than_logs(self.name, self.most, 0, self._at)
+        return b"".join(parts)
