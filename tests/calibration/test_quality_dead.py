@@ -37,8 +37,9 @@ def test_a_sensor_that_stands_while_the_machine_moves_is_dead() -> None:
 
 
 def test_one_that_shows_other_readings_between_the_points_is_coarse_in_a_calm_place() -> None:
-    calm = replace(course(0.0), flickers=True)
+    calm = replace(course(0.0), flickers=0.1)
     assert dead_throughout(made(calm)) == set()
+    assert dead_throughout(made(replace(calm, flickers=20.0))) == {("c", "T")}, "it drops out"
     assert dead_throughout(made(course(0.0), moves=6.0)) == {("c", "T")}
 
 

@@ -91,3 +91,29 @@ def test_one_test_a_day_at_one_hour_tells_no_zone_beside_files_of_whole_days(tmp
 def test_logs_that_are_no_longer_than_their_tests_tell_their_zone_as_before(tmp_path: Path, say: Say) -> None:
     text = drafted(tmp_path, say, [8 * 60], 2, (8 * 60, 8 * 60 + 245))
     assert "+2 h from the other sources' UTC: so are Europe/Helsinki and others" in text
+
+
+@pytest.mark.parametrize(
+    ("begins", "told"),
+    [
+        (((13, 22, 3), (41, 7, 3), (5, 53, 4)), True),
+        (((13, 22, 3), (41, 7, 40), (5, 53, 4)), False),  # each begins as it comes
+        (((0, 0, 3), (30, 0, 3), (0, 0, 3)), False),  # by a timetable
+        (((13, 22, 3), (13, 22, 3), (13, 22, 3)), False),
+    ],
+)
+def test_longer_logs_tell_their_zone_where_they_begin_with_their_tests_to_seconds(
+    tmp_path: Path, say: Say, begins: tuple[tuple[int, int, int], ...], told: bool
+) -> None:
+    """begins: minute and second of a log, and by how many seconds its test begins later."""
+    for k, (minute, second, later) in enumerate(begins):
+        own = MIDNIGHT + timedelta(days=k, hours=8, minutes=minute, seconds=second)
+        test = own + timedelta(hours=-1, seconds=later)
+        rows = [f"{test + timedelta(seconds=20 * i):%Y-%m-%dT%H:%M:%SZ},{i % 7},{20 + i / 99:.2f}" for i in range(360)]
+        (tmp_path / f"daq_t{k}.csv").write_text("\n".join(["time,dZ [um],T_bed [degC]", *rows, ""]))
+        rows = [f"{own + timedelta(seconds=20 * i):%Y-%m-%d %H:%M:%S},{2000 + i % 5},{i % 9}" for i in range(600)]
+        (tmp_path / f"nc_t{k}.csv").write_text("\n".join(["time,n [rpm],nLoad [%]", *rows, ""]))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert ("+1 h from the other sources' UTC: so are Europe/Prague, Europe/Berlin and others" in text) is told
+    assert ("+1 to +2 h fit as well" in text) is not told

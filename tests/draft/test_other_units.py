@@ -91,3 +91,16 @@ def test_one_in_fahrenheit_beside_others_in_degrees_is_asked_though_the_head_say
     said = {c.name: [q for q in c.said.questions if q.startswith("unit")] for c in draft_files(tmp_path).draft.channels}
     assert bool(said.pop("T_motor_Z")) == asked
     assert not any(said.values())
+
+
+def test_two_in_fahrenheit_do_not_silence_each_other(tmp_path: Path) -> None:
+    t = np.arange(300) * 30.0
+    warm = 1 - np.exp(-t / 3000)
+    for k in range(2):
+        parts = [20.5 + size * warm for size in (0.5, 4.0, 9.0)]
+        others = [1.8 * (20.5 + size * warm) + 32 for size in (12.0, 8.0)]
+        heads = ["t [s]", *(f"T_{x} [degC]" for x in ("hall", "bed", "nut_Z", "motor_Z", "motor_Y"))]
+        text(tmp_path / f"run{k}.csv", heads, [numbers(t, 0), *(numbers(x, 2) for x in (*parts, *others))], mark=",")
+    said = {c.name: [q for q in c.said.questions if "degF" in q] for c in draft_files(tmp_path).draft.channels}
+    assert sorted(name for name, asked in said.items() if asked) == ["T_motor_Y", "T_motor_Z"]
+    assert "as most others are (20.5 to 20.5)" in said["T_motor_Z"][0]

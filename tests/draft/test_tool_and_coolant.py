@@ -166,6 +166,8 @@ def test_other_texts_and_heads_say_nothing(tmp_path: Path) -> None:
         ("dankai\ncoolant on\n", {"dankai": None, "sweep": None}),
         ("kai:\n  coolant on\n", {"dankai": None, "sweep": None}),
         ("rest:\n  coolant on\n", {"dankai": None, "sweep": None}),
+        ("dankai:\n\nThe day before, coolant on.\n", {"dankai": None, "sweep": None}),
+        ("## dankai\n\n- warm\n\n- coolant on\n", {"dankai": None, "sweep": None}),
     ],
 )
 def test_a_heading_names_a_test_without_the_day_before_its_name(
@@ -180,3 +182,14 @@ def test_a_heading_names_a_test_without_the_day_before_its_name(
         name: tests[test].conditions.get("coolant") for test in tests for name in coolant if name in test
     } == coolant
     assert not any("coolant" in t.conditions for name, t in tests.items() if "rest" in name)
+
+
+@pytest.mark.parametrize(
+    "name", ["feed_10", "10_feed", "01_spindle", "02_axis", "02_x-axis", "03_Achsen", "04_cooling"]
+)
+def test_a_line_that_begins_with_a_word_of_the_trade_is_of_no_test(tmp_path: Path, name: str) -> None:
+    log(tmp_path / f"{name}.csv", day=1)
+    log(tmp_path / "0813_sweep.csv", day=2)
+    word = name.strip("0123456789_")
+    (tmp_path / "README.md").write_text(f"# Machine 138\n\n{word}: linear motors, dry\n\n## {word}\n\n- dry\n", "utf-8")
+    assert not any("coolant" in t.conditions for t in drafted(tmp_path).values())

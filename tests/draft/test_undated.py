@@ -149,6 +149,25 @@ def test_other_logs_of_the_source_tell_the_pass_of_one_in_the_hour_that_repeats(
 
 
 @pytest.mark.parametrize(
+    "logs",
+    [
+        (("cool", "25T02:05", 25), ("later", "25T08:10", 40), ("warm", "25T02:10", 40)),
+        (("cool", "25T02:05", 25), ("warm", "25T02:10", 40)),
+        (("hall_1", "25T02:05", 25), ("hall_2", "25T08:10", 40), ("hall_3", "25T02:10", 40)),
+        (("hall_1", "25T08:00", 25), ("hall_2", "25T02:05", 25), ("hall_3", "25T02:10", 40)),
+    ],
+)
+def test_logs_that_names_do_not_order_tell_no_pass(tmp_path: Path, logs: tuple[tuple[str, str, int], ...]) -> None:
+    for name, first, minutes in logs:
+        at = np.datetime64(f"2026-10-{first}:00") + np.arange(2 * minutes) * np.timedelta64(30, "s")
+        rows = ["time;T_hall [degC];T_floor [degC]", *(f"{x};{20 + k / 90:.2f};19.5" for k, x in enumerate(at)), ""]
+        (tmp_path / f"{name}.csv").write_text("\n".join(rows))
+    (asked,) = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert "pass, as" not in asked
+    assert "start: 2026-10-25T02:05:00+02:00 for the first pass, 2026-10-25T02:05:00+01:00 for the second" in asked
+
+
+@pytest.mark.parametrize(
     ("parts", "asks"),
     [
         ((("25T00:00", 110), ("25T02:05", 40)), False),  # the start is of the part before

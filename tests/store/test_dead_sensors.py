@@ -23,17 +23,32 @@ channels:
 """
 
 
-@pytest.mark.parametrize(("flickers", "stuck"), [((), True), ((211,), True), ((95, 211, 298), False)])
+OFTEN = (35, 95, 96, 145, 211, 298, 352)
+
+
+@pytest.mark.parametrize(
+    ("others", "stuck"),
+    [
+        ({}, True),
+        ({211: 0.1}, True),
+        ({211: 0.1, 212: 0.1, 213: 0.1, 214: 0.1, 215: 0.1}, True),  # once
+        ({95: -20.5, 298: -20.5}, True),
+        (dict.fromkeys(OFTEN, -20.5), True),  # it drops out
+        (dict.fromkeys((101, 103, 105, 107, 109, 111), 0.1), True),  # not all over the test
+        ({row: 0.1 if k % 2 else -0.1 for k, row in enumerate(OFTEN)}, False),
+    ],
+)
 def test_a_coarse_sensor_that_shows_the_next_tread_now_and_then_is_alive(
-    tmp_path: Path, installed_readers: None, flickers: tuple[int, ...], stuck: bool
+    tmp_path: Path, installed_readers: None, others: dict[int, float], stuck: bool
 ) -> None:
     i = np.arange(400)
     for k, test in enumerate("abc"):
         tank = np.round(20.5 + (6.0 * (1 - np.exp(-i / 90)) if test != "c" else 0.0 * i), 1)
-        tank[list(flickers) if test == "c" else []] += 0.1
-        others = [np.round(20 + n * (1 - np.exp(-i / 80)) + 0.01 * (i % 3), 2) for n in (4, 5, 6, 7)]
+        for row, apart in others.items() if test == "c" else ():
+            tank[row] += apart
+        machine = [np.round(20 + n * (1 - np.exp(-i / 80)) + 0.01 * (i % 3), 2) for n in (4, 5, 6, 7)]
         times = np.datetime64(f"2026-03-0{k + 2}T08:00:00") + i * np.timedelta64(60, "s")
-        rows = [f"{t}," + ",".join(f"{v:.2f}" for v in row) for t, *row in zip(times, tank, *others, strict=True)]
+        rows = [f"{t}," + ",".join(f"{v:.2f}" for v in row) for t, *row in zip(times, tank, *machine, strict=True)]
         (tmp_path / f"{test}.csv").write_text("time,T0,T1,T2,T3,T4\n" + "\n".join(rows) + "\n")
     (tmp_path / "campaign.yaml").write_text(CAMPAIGN)
     store = Store(tmp_path / "store", create=True)

@@ -20,12 +20,13 @@ _NEVER_STILL = 4.0  # and in each other test at least: a motor that rests in a s
 _LEAST_OTHERS = 3
 # three of four others move by so many of its treads: what rests in a hall that warms by a kelvin stands, in whole ones
 _AT_REST, _REST_TREADS = 0.25, 2.0
+_ONE_TREAD = 1.5  # as far lies the next reading of a live one; where a dead one drops out it is anywhere
 _AS_ELSEWHERE = 0.5  # of what the others move by in their other tests: a quiet test tells nothing
 
 
 def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
     """(test, channel) of each temperature that stands through a test of an hour and more, to the last digit. A coarse
-    one in a calm place does so at all moments of a test that are kept, and shows the next tread between them."""
+    one in a calm place does so at all moments of a test that are kept, and shows the next tread between them, often."""
     courses: dict[str, dict[str, Float1D]] = {}
     for test in tests if len(tests) > 1 else ():
         for name, course in test.series.items():
@@ -50,7 +51,10 @@ def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
                 moved.setdefault(key, []).append(span / usual[name])
     alive = {t for t, r in moved.items() if len(r) >= _LEAST_OTHERS and float(np.median(r)) >= _AS_ELSEWHERE}
 
-    flickers = {(test.test, name) for test in tests for name, course in test.series.items() if course.flickers}
+    flickers = {(x.test, name): c.flickers for x in tests for name, c in x.series.items() if c.flickers is not None}
+
+    def shows_next_tread(name: str, test: str) -> bool:
+        return flickers.get((test, name), np.inf) <= _ONE_TREAD * standing[name]
 
     def rests(name: str, test: str) -> bool:
         others = [r[test] for n, r in ranges.items() if n != name and test in r]
@@ -60,7 +64,7 @@ def dead_throughout(tests: Sequence[Levels]) -> set[tuple[str, str]]:
         (test, name)
         for name in standing
         for test, span in ranges[name].items()
-        if span == 0 and test in alive and (test, name) not in flickers and not rests(name, test)
+        if span == 0 and test in alive and not shows_next_tread(name, test) and not rests(name, test)
     }
 
 

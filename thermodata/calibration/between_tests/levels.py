@@ -18,8 +18,8 @@ _NEAR = 1.5  # of the times between points
 class Course:
     """A channel at a few moments of a test. t_s, values: shape (n,), in time order; NaN where nothing valid is. off:
     shape (n,), where it is flagged as off already. powered: it stays warm or cold while the machine is switched on.
-    around: it is not of the machine, and has seasons and weather of its own, or nobody says where it is. flickers: its
-    samples between these moments differ."""
+    around: it is not of the machine, and has seasons and weather of its own, or nobody says where it is. flickers: how
+    far the next reading lies that it shows often between these moments, and all over the test; else None."""
 
     t_s: Float1D
     values: Float1D
@@ -27,7 +27,7 @@ class Course:
     off: Bool1D | None = None
     powered: bool = False
     around: bool = False
-    flickers: bool = False
+    flickers: float | None = None
 
     @property
     def sound(self) -> Float1D:

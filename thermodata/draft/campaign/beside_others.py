@@ -38,16 +38,18 @@ def in_fahrenheit(said: Guess, one: OneSignal) -> str | None:
         if values is None or not values.n or len(others) < _FEWEST_OTHERS:
             return None
         least = least_reading(values)
-        apart = abs((least - 32) / 1.8 - median(others))
-        if apart > _ALIKE_K or least - max(others) < _APART_K or values.high - values.low < _MOVES:
+        usual = median(others)  # another one of them may be in Fahrenheit
+        apart = abs((least - 32) / 1.8 - usual)
+        if apart > _ALIKE_K or least - usual < _APART_K or values.high - values.low < _MOVES:
             return None
         told = told or (least, others)
     if told is None:
         return None
     least, others = told
+    colder = [x for x in others if least - x >= _APART_K]
     return (
-        f"unit: degF, or degC? its coldest is {least:.3g}, which in degF is {(least - 32) / 1.8:.3g} degC, as the "
-        f"others are ({min(others):.3g} to {max(others):.3g})"
+        f"unit: degF, or degC? its coldest is {least:.3g}, which in degF is {(least - 32) / 1.8:.3g} degC, as "
+        f"{'the' if colder == others else 'most'} others are ({min(colder):.3g} to {max(colder):.3g})"
     )
 
 

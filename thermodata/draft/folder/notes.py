@@ -12,8 +12,11 @@ from pathlib import Path, PurePosixPath
 from thermodata.archive.unpacked import held
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.statements import statements
+from thermodata.draft.words.axis import axis_of
+from thermodata.draft.words.naming import words
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
+from thermodata.draft.words.vocabulary import places_in, quantities_in
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.file.encoding import decode_head
@@ -22,8 +25,9 @@ _NOTES = frozenset({".txt", ".md", ".rst", ".log", ""})
 _LARGEST, _HEAD, _MOST_LINES = 100_000, 4096, 40  # bytes of a text, of the head of a log; lines of a head
 _SHOWN = 80
 _CELLS = re.compile(r"[\t|;,]")
-_NUMBERS = re.compile(r"^[\d._-]+[_\- .]|[_\- .][\d._-]+$")
+_NUMBERS = re.compile(r"^\d[\d._-]*[_\- .]")
 _SHORTEST = 3  # letters of a name without its number
+_AXES = frozenset({"axes", "achsen", "osy", "assi", "ejes", "eixos"})
 _MARKS = " \t-*•#>"
 _TAKEN = ("speed", "feed", "air")
 
@@ -104,26 +108,40 @@ def _names(test: str, files: Sequence[RawFile]) -> set[str]:
 
 
 def _but_numbers(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, str]:
-    """What is called by a name that is a test's but for the day or number before or behind it: '0812_dankai' alone is
-    'dankai'."""
+    """What is called by a name that is a test's but for the day or number before it: '0812_dankai' alone is 'dankai'.
+    A word of the trade is none: '01_feed' is no 'Feed: linear motors, dry'."""
     bare = {test: _NUMBERS.sub("", test).casefold() for test in tests}
     count = Counter(bare.values())
-    return {name: test for test, name in bare.items() if count[name] == 1 and sum(map(str.isalpha, name)) >= _SHORTEST}
+    return {
+        name: test
+        for test, name in bare.items()
+        if count[name] == 1 and sum(map(str.isalpha, name)) >= _SHORTEST and not _is_of_trade(name)
+    }
+
+
+def _is_of_trade(name: str) -> bool:
+    """Whether a name is one word for a part of a machine, an axis, a quantity or the coolant."""
+    said = words(name)
+    if said in _AXES or axis_of(said) or axis_of(f"{said} a"):
+        return True
+    return name.isalpha() and bool(places_in(said) or quantities_in(said) or tool_and_coolant([said]))
 
 
 def _with_headings(lines: Sequence[str], called: Mapping[str, str]) -> list[str]:
-    """The lines, what stands under the name of a test ('run01:', '## run01') in one with it."""
+    """The lines, what stands under the name of a test ('run01:', '## run01') in one with it, up to an empty line."""
     found: list[str] = []
-    under = False
+    under, waits = False, False  # waits: nothing stands under a heading of Markdown yet, behind which lines are empty
     for line in lines:
         bare, (first, rest) = line.strip(), _first(line)
         if not bare:
-            under = under and found[-1].endswith(":")
+            under = waits
         elif first in called or bare.startswith("#") or bare.endswith(":"):
             under = first in called and not rest and (bare.startswith("#") or bare.endswith(":"))
+            waits = under and bare.startswith("#")
             found.append(f"{first}:" if under else line)
         elif under:
             found[-1] += f"{' ' if found[-1].endswith(':') else ', '}{bare.strip(_MARKS)}"
+            waits = False
         else:
             found.append(line)
     return found

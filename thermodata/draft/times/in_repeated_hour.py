@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
@@ -40,8 +41,10 @@ def which_pass(group: Group, groups: Sequence[Group], proposed: str) -> str:
 def _by_order(group: Group, file: RawFile, zone: str) -> tuple[bool, RawFile] | None:
     """(whether a file is of the second pass, what says so): of the logs of its source one before it, by name, ends in
     the hour later by the local clock than it begins, or one behind it begins there earlier than it ends. None where
-    neither is so, or both."""
+    neither is so, or both, or where names tell no order."""
     ordered = sorted(group.files, key=lambda f: natural(f.path.as_posix()))
+    if not _count_on(ordered, zone):
+        return None
     at = next(i for i, f in enumerate(ordered) if f.path == file.path)
     begin, end = file.sample.first_ns or 0, file.sample.last_ns or 0
     ended = [(f, f.sample.last_ns) for f in ordered[:at] if f.local and f.sample.whole]
@@ -51,6 +54,16 @@ def _by_order(group: Group, file: RawFile, zone: str) -> tuple[bool, RawFile] | 
     if (second is None) == (first is None):
         return None
     return (True, second) if second is not None else (False, first) if first is not None else None
+
+
+def _count_on(ordered: Sequence[RawFile], zone: str) -> bool:
+    """Whether names are alike but for their numbers, and all logs with dates begin in their order: by local times that
+    go back only within the hour that is repeated, and once."""
+    if len({re.sub(r"\d+", "", f.path.as_posix()) for f in ordered}) > 1:
+        return False
+    began = [t for f in ordered if (t := _local_ns(f, zone)) is not None]
+    back = [(a, b) for a, b in pairwise(began) if b < a]
+    return len(back) < 2 and all(_hour_at(a, zone) and _hour_at(b, zone) for a, b in back)
 
 
 def _passes(file: RawFile, zone: str) -> tuple[str, str] | None:

@@ -19,6 +19,8 @@ from thermodata.schema.words.sentences import with_count
 
 _HOUR_NS = 3_600_000_000_000
 _MOST_HOURS, _NEAR_NS = 14, 60 * 10**9  # that a zone is ahead; by which a log may begin after its test
+# so far apart are beginnings of logs that a test starts; at minutes that no timetable knows, and so many different ones
+_AT_ONCE_NS, _TIMETABLE_NS, _FEWEST_MINUTES = 10 * 10**9, 900 * 10**9, 2
 _FILES, _RUNS = 3, 3  # that a question names
 _WORD = re.compile(rf"{SAYS} '([^']*)'")
 _ZONES = (
@@ -62,17 +64,32 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
 @dataclass(frozen=True, slots=True)
 class _Ahead:
     """A test's local log beside the UTC of another source. hours: by which it is ahead if both begin at once; begin_ns:
-    in UTC; name: of the log; holds: by how many more hours it could be ahead, and hold all of the test."""
+    in UTC; starts_ns: the log, in its local times; name: of the log; holds: by how many more hours it could be ahead,
+    and hold all of the test."""
 
     hours: int
     begin_ns: int
+    starts_ns: int
     name: str
     holds: frozenset[int]
 
 
 def _as_well(each: Sequence[_Ahead]) -> frozenset[int]:
-    """By how many hours more than where logs begin with their tests all of them could be ahead."""
-    return frozenset.intersection(*(e.holds for e in each))
+    """By how many hours more than where logs begin with their tests all of them could be ahead; none where
+    these beginnings tell."""
+    return frozenset() if _begin_at_once(each) else frozenset.intersection(*(e.holds for e in each))
+
+
+def _begin_at_once(each: Sequence[_Ahead]) -> bool:
+    """Whether each log begins with its test but for the same time, to seconds, at minutes that differ: a file of a day
+    or an hour begins at a whole one."""
+    late = [e.starts_ns - e.begin_ns - e.hours * _HOUR_NS for e in each]
+    odd = [e.begin_ns % _HOUR_NS // (60 * 10**9) for e in each if _off_timetable(e.starts_ns)]
+    return max(late) - min(late) <= _AT_ONCE_NS and len(set(odd)) >= _FEWEST_MINUTES
+
+
+def _off_timetable(at_ns: int) -> bool:
+    return _AT_ONCE_NS < at_ns % _TIMETABLE_NS < _TIMETABLE_NS - _AT_ONCE_NS
 
 
 def _changes(each: Sequence[_Ahead]) -> str:
@@ -126,7 +143,7 @@ def _each_ahead(group: Group, groups: Sequence[Group]) -> list[_Ahead] | None:
         if f.start_ns is not None and (begin := begin_of(g.tests[test])) is not None
     ]
     whole = [
-        _Ahead(round(h), begin, file.path.name, _held(file, start, begin, end) - {round(h)})
+        _Ahead(round(h), begin, start, file.path.name, _held(file, start, begin, end) - {round(h)})
         for file, start, begin, end in pairs
         if abs((h := (start - begin) / _HOUR_NS) - round(h)) < 0.25
     ]

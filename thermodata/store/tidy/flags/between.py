@@ -126,8 +126,8 @@ class Sampler:
 
     def levels(self) -> dict[str, Any]:
         """Ready for JSON: t_s, values (None where nothing valid is), off (points at which the channel is flagged as
-        off), pauses, readings, flickers (temperatures whose samples are not all alike). Empty where no channel is
-        slow."""
+        off), pauses, readings, flickers (temperature -> how far the next reading lies that it shows often). Empty where
+        no channel is slow."""
         values = {n: _rounded(p) for n, p in self._points.items() if np.isfinite(p).any()}
         if not values:
             return {}
@@ -139,7 +139,7 @@ class Sampler:
             "off": {n: np.flatnonzero(o).tolist() for n, o in self._off.items() if o.any()},
             "pauses": longest,
             "readings": readings,
-            "flickers": [n for n, f in self._flickers.items() if f.told],
+            "flickers": {n: tread for n, f in self._flickers.items() if (tread := f.tread) is not None},
         }
 
 
@@ -240,7 +240,7 @@ def levels_of(
                 off,
                 name in powered,
                 name in around,
-                name in levels.get("flickers", ()),
+                levels.get("flickers", {}).get(name),
             )
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
