@@ -36,6 +36,40 @@ def test_a_list_of_tests_is_told_from_a_log(
     assert listed_tests(tmp_path, f"{name}.csv") == (list(keys) if is_list else [])
 
 
+def timed(k: int) -> str:
+    return f"2026-05-06 {8 + k // 60:02d}:{k % 60:02d}:00"
+
+
+@pytest.mark.parametrize(
+    ("name", "header"),
+    [
+        ("Messprotokoll", "Nr;Zeit;T_spindel [°C];dZ [µm];Bemerkung"),
+        ("温度记录", "序号;时间;温度 [℃];位移Z [µm];备注"),
+        ("test_03", "No.;Time;T_spindle [degC];dZ [um];Note"),
+        ("Versuche_uebersicht", "Lauf;Start;Ende;T_spindel;Bemerkung"),
+        ("test_plan_run1", "No.;Begin;T [degC];dZ [um];Comment"),
+    ],
+)
+@pytest.mark.parametrize("step", [1, 7])
+def test_a_short_log_of_numbered_rows_is_no_list(tmp_path: Path, name: str, header: str, step: int) -> None:
+    rows = [
+        f"{k + 1};{timed(k * step)};{timed(k * step + step) if 'Ende' in header else round(20 + k / 7, 2)};{k / 9:.2f};"
+        for k in range(45)
+    ]
+    (tmp_path / f"{name}.csv").write_text("\n".join([header, *rows, ""]), encoding="utf-8")
+    assert listed_tests(tmp_path, f"{name}.csv") == []
+
+
+def test_decimals_under_a_unit_are_a_log_and_tests_a_day_apart_a_list(tmp_path: Path) -> None:
+    rows = [f"{k + 1};{timed(k * k)};{20 + k / 8:.3f};x" for k in range(30)]
+    (tmp_path / "test_4.csv").write_text("\n".join(["No.;Time;T [degC];Note", *rows, ""]), encoding="utf-8")
+    assert listed_tests(tmp_path, "test_4.csv") == []
+    rows = [f"V{k + 1};2026-05-{6 + k:02d} 08:00;2026-05-{6 + k:02d} 12:30;{20 + k / 8:.2f};Kal" for k in range(9)]
+    plan = ["Test;Beginn;Ende;T_Halle [°C];Rolle", *rows, ""]
+    (tmp_path / "Plan.csv").write_text("\n".join(plan), encoding="utf-8")
+    assert listed_tests(tmp_path, "Plan.csv") == [f"V{k + 1}" for k in range(9)]
+
+
 @pytest.mark.parametrize(("beginning", "joined"), [("V", True), ("Q", False)])
 def test_a_list_gives_conditions_to_tests_whose_names_begin_so_and_is_no_source(
     tmp_path: Path, beginning: str, joined: bool

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ CALLED = {n.casefold(): n for n in ("P1", "P2", "P3", "exp_b", "exp_c")}
         ),
         ("- exp_b: fit; exp_c: verify", [("exp_b", "fit"), ("exp_c", "verify")]),
         ("P1 und P2: Kalibrierung", [("P1", "Kalibrierung"), ("P2", "Kalibrierung")]),
+        ("P1和P2: 标定", [("P1", "标定"), ("P2", "标定")]),
         ("P1/P2: kal. P3: ver", [("P1", "kal"), ("P2", "kal"), ("P3", "ver")]),
         ("P2: om 09:30 gecorrigeerd", []),  # of one test, as before
         ("P1: slower than P2: 6000 rpm", []),
@@ -29,6 +31,13 @@ CALLED = {n.casefold(): n for n in ("P1", "P2", "P3", "exp_b", "exp_c")}
 )
 def test_what_a_line_says_of_several_tests(line: str, said: list[tuple[str, str]]) -> None:
     assert statements(line, CALLED) == said
+
+
+@pytest.mark.parametrize("mark", ["/", "/a", "-a", " a", "和x"])
+def test_a_line_of_marks_takes_no_time(mark: str) -> None:
+    began = time.process_time()
+    assert statements(mark * 200 + " Notes of the hall: June", CALLED) == []
+    assert time.process_time() - began < 1
 
 
 def test_the_line_of_a_test_and_the_one_of_all_stand_beside_each_other(tmp_path: Path) -> None:

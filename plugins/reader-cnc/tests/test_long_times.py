@@ -40,6 +40,7 @@ def read(tmp_path: Path, header: str, zone: str | None = None, rows: str = ROWS)
         ("TimestampUTC", None, EIGHT),
         ("Zeitstempel (UTC)", "UTC", EIGHT),
         ("DateTime (UTC+2)", "Etc/GMT-2", EIGHT - 2 * HOUR),
+        ("Timestamp [Europe/Berlin]", "Europe/Berlin", EIGHT - HOUR),
         ("Time [GMT-05:00]", "Etc/GMT+5", EIGHT + 5 * HOUR),
     ],
 )
@@ -82,3 +83,39 @@ def test_a_table_without_dates_beside_tag_and_value_is_no_long_one_of_it(tmp_pat
     rows = [f"{k},T{1 + k % 2},{20 + k}" for k in range(40)]
     assert long_table.claims(["Row,Tag,Value", *rows]) is None
     assert long_table.claims(["Timestamp (UTC),Tag,Value", *rows]) is None
+
+
+def rows_of(*cells: str, name: str = "") -> str:
+    """40 rows of two tags, or of one name. cells: of a row, where WHEN, TAG and VALUE stand for its own."""
+    text = ",".join(cells)
+    each = (("WHEN", "2026-03-02 08:{0:02d}:00"), ("TAG", name or "T{1}"), ("VALUE", "{0}.5"), ("OTHER", "2{0}.25"))
+    for word, own in each:
+        text = text.replace(word, own)
+    return "".join(text.format(k, 1 + k % 2) + "\n" for k in range(40))
+
+
+@pytest.mark.parametrize(
+    ("header", "cells"),
+    [
+        ("Calibrated,Tag,Value,When", ("2019-01-01 00:00:00", "TAG", "VALUE", "WHEN")),
+        ("Due,Tag,Value,When", ("2027-01-0{1} 00:00:00", "TAG", "VALUE", "WHEN")),
+        ("Tag,Due,Value,Erfasst", ("TAG", "2027-01-01 00:00:00", "VALUE", "WHEN")),
+    ],
+)
+def test_the_time_is_the_date_that_goes_on(tmp_path: Path, header: str, cells: tuple[str, ...]) -> None:
+    assert read(tmp_path, header, "UTC", rows_of(*cells))[0] == EIGHT
+
+
+@pytest.mark.parametrize(
+    ("header", "wide"),
+    [
+        ("Datum,Name,Wert,T_Lager [°C]", True),
+        ("Erfasst,Name,Wert,T2", True),
+        ("Time,Name,Value,T_Lager [°C]", True),
+        ("Time,Name,Value,Raw", False),  # as exports are that name a tag in each row
+    ],
+)
+def test_a_wide_log_that_names_its_operator_is_no_long_one(header: str, wide: bool) -> None:
+    rows = rows_of("WHEN", "TAG", "VALUE", "OTHER", name="Meier").split("\n")
+    assert (long_table.claims([header, *rows]) is None) == wide
+    assert long_table.claims([header, *rows_of("WHEN", "TAG", "VALUE", "OTHER").split("\n")]) is not None

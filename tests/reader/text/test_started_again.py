@@ -10,6 +10,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
+from thermodata.reader.text.file import lines as file_lines
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
 NUMBERS = ["Zeit [s];T1 [°C];T2 [°C]", *(f"{60 * i}.0;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
@@ -46,6 +47,26 @@ def test_a_start_between_rows_that_count_on_changes_nothing(tmp_path: Path) -> N
     _, start, notes, minutes = read(tmp_path, head, rows)
     assert (start, minutes) == (SEVEN, list(range(40)))
     assert not any("anew" in n for n in notes)
+
+
+@pytest.mark.parametrize("footer", ["Test: 02.03.2026 07:40:00", "Recorded: 02.03.2026 09:00:00"])
+def test_a_moment_below_the_rows_is_no_further_head(tmp_path: Path, footer: str) -> None:
+    _, _, notes, minutes = read(tmp_path, ["Start: 2026-03-02 07:00:00"], [*NUMBERS, footer])
+    assert minutes == list(range(40))
+    assert not any("anew" in n for n in notes)
+
+
+@pytest.mark.parametrize("again", [False, True])
+def test_a_start_counts_alike_wherever_chunks_are_cut(
+    tmp_path: Path, again: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    event = ["Start: 02.03.2026 08:00:00", *AGAIN] if again else ["Trigger: 02.03.2026 07:20:00", *NUMBERS[21:]]
+    lines = ["Start: 2026-03-02 07:00:00", "", *NUMBERS[: None if again else 21], *event]
+    expected = [*range(40), *range(60, 80)] if again else list(range(40))
+    at = "\n".join([*lines, ""]).index(event[0])
+    for size in (at - 20, at, at + 5, at + len(event[0]) + 1, at + len(event[0]) + 40, at + 100):
+        monkeypatch.setattr(file_lines.chunks, "__defaults__", (size,))
+        assert read(tmp_path, lines[:1], lines[2:])[3] == expected, size
 
 
 @pytest.mark.parametrize(("day", "hour"), [("2026-03-29", 1), ("2026-10-25", 2)])

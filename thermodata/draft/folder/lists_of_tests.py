@@ -3,15 +3,23 @@ and ended, its role, a remark."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.table import SUFFIXES, grids_of, is_called_table, there
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.vocabulary import says
+from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.time_pattern import DATETIME, is_date_text, is_time_of_day
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.time_formats import find_format
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import with_count
 
 _KEY = (
@@ -34,6 +42,9 @@ _ROLE = (
 )
 _CALLED = "plan list. liste. lijst. proeven essais versuche uebersicht protokol 记录 計画 计划 一覧 清单 記録 リスト"
 _MOST_ROWS, _LEAST_SAID, _SHOWN = 100, 2, 4
+_STEADY_ROWS, _MEASURED_ROWS, _NEARLY = 5, 24, 0.9
+_LONGEST_STEP = 900 * 10**9  # [ns] of a log so short; tests begin farther from each other
+_DECIMAL = re.compile(r"[+-]?\d+[.,]\d+")
 
 
 def lists_apart(folder: Path, found: Scan) -> Scan:
@@ -66,7 +77,7 @@ def _named(header: Sequence[str], lines: Sequence[Sequence[str]], path: str) -> 
     if column is None:
         return []
     names = [line[column].strip() if column < len(line) else "" for line in lines]
-    if not all(names) or len(set(names)) < len(names):
+    if not all(names) or len(set(names)) < len(names) or _is_logged(header, lines):
         return []
     begins = any(says(_BEGIN, t) for t in titles) and any(says(_END, t) for t in titles)
     role = any(says(_ROLE, t) for t in titles)
@@ -75,3 +86,32 @@ def _named(header: Sequence[str], lines: Sequence[Sequence[str]], path: str) -> 
     counted = all(n.isdigit() for n in names)
     said = sum((begins, role, called))
     return names if said >= _LEAST_SAID and (role or not counted) else []
+
+
+def _is_logged(header: Sequence[str], lines: Sequence[Sequence[str]]) -> bool:
+    """Whether rows go on as a log does: a time in them by short steps that are all alike, or, in a list too long to be
+    written by hand, decimals under a unit."""
+    columns = [[line[i].strip() if i < len(line) else "" for line in lines] for i in range(len(header))]
+    if len(lines) >= _STEADY_ROWS and any(map(_is_steady, columns)):
+        return True
+    return len(lines) >= _MEASURED_ROWS and any(
+        split_unit(title)[1] and sum(bool(_DECIMAL.fullmatch(c)) for c in column) >= _NEARLY * len(lines)
+        for title, column in zip(header, columns, strict=True)
+    )
+
+
+def _is_steady(cells: Sequence[str]) -> bool:
+    """Whether times go on by steps that are nearly all alike, and shorter than from test to test."""
+    if not all((is_date_text(c) and says_the_hour(c)) or is_time_of_day(c) for c in cells):
+        return False
+    try:
+        form = find_format(cells, "")
+    except FormatError:  # of day and month, whose order changes no step within a day
+        form = DATETIME["dmy"]
+    ns = [timestamp.parse_one(c, form) for c in cells]
+    steps = sorted(b - a for a, b in pairwise(ns) if NAT not in (a, b))
+    if len(steps) < _NEARLY * (len(cells) - 1):
+        return False
+    usual = steps[len(steps) // 2]
+    alike = sum(abs(step - usual) <= usual // 10 for step in steps)
+    return 0 < usual <= _LONGEST_STEP and alike >= _NEARLY * len(steps)

@@ -6,9 +6,10 @@ import re
 from collections.abc import Mapping
 
 _MARKS = " \t-*•#>"
-_BETWEEN = re.compile(r"\s*(?:[,&+/]|\b(?:and|und|en|et|e|y|i|a|og|och)\b|[、和及])\s*", re.IGNORECASE)
+_BETWEEN = re.compile(r"\s*[,&+/、和及]\s*|\s+(?:and|und|en|et|e|y|i|a|og|och)\s+", re.IGNORECASE)
+_NAME = r"[^\s,;:&+/、和及]+"  # without what stands between names: a text can be parted in one way only
 # names with what stands between them, at the end of a text
-_NAMES = re.compile(rf"[^\s,;:&+、]+(?:(?:{_BETWEEN.pattern})[^\s,;:&+、]+)*\s*$", re.IGNORECASE)
+_NAMES = re.compile(rf"{_NAME}(?:(?:{_BETWEEN.pattern}){_NAME})*\s*$", re.IGNORECASE)
 _ENDS = ".;,|。；，–-"  # what may stand before the next names
 _TRIM = " \t;,.。；，=-–"
 

@@ -115,7 +115,7 @@ def describe(table: Table, source: Source) -> Recording:
         reader = RowReader(table, source, 1)
         first = table.layout.first
         data = "\n".join((*table.sample.head[first : first + _FIRST_ROWS], "")).encode()
-        starts = [int(b.t_ns[0]) for b in reader.read(Chunk(data, first, 0, False)) if isinstance(b, Block)]
+        starts = [int(b.t_ns[0]) for b in reader.read(Chunk(data, first, 0, True)) if isinstance(b, Block)]
         if table.absolute:
             start = min(starts, default=0)
             notes += _zone_notes(table, source, start)
@@ -152,7 +152,7 @@ def _notes_of_counts(table: Table, source: Source) -> list[str]:
     reader = RowReader(table, source, 1)
     starts: dict[str, None] = {}
     for some in (table.sample.head[table.layout.first :], table.sample.rest):
-        for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, False)):
+        for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)):
             pass
         starts.update({begin.text: None for begin in reader.anew})
     notes = [f"times count anew from the start in a further head: '{text}'" for text in starts]
@@ -216,7 +216,7 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
 def _local_times(table: Table, source: Source, lines: Sequence[str]) -> list[Int1D]:
     """The times of lines, block by block, as if they were UTC."""
     reader = RowReader(table, Source(table=source.table), 1)
-    chunk = Chunk("\n".join((*lines, "")).encode(), 0, 0, False)
+    chunk = Chunk("\n".join((*lines, "")).encode(), 0, 0, True)
     return [b.t_ns for b in reader.read(chunk) if isinstance(b, Block) and b.t_ns.size]
 
 

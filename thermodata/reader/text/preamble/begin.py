@@ -122,7 +122,9 @@ def find_begin(
     begin = None if said is None else _begin(said, first, sure=declared is None)
     if begin is None and declared == HEAD and (said is not None or unread is not None):
         raise _not_taken(said, unread, where)
-    if begin is None and unread is not None and (said is None or unread.says > said.says):
+    # a moment that is less surely a start is none of the rows where the surer one may be another
+    open_start = begin is None or (declared is None and unread is not None and unread.timed and not begin.of_day)
+    if open_start and unread is not None and (said is None or unread.says > said.says):
         return None, _unread(unread)
     if said is None:  # of files that are declared alike only some may have such a line
         if declared is not None:

@@ -31,6 +31,7 @@ _FULL_WIDTH = str.maketrans("：＝（）", ":=()")
 _MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
 _LONGEST_CELL, _LONGEST_TIME = 200, 100  # letters: what is longer is prose, and a pattern would take its time over it
 _SHORT_YEAR = re.compile(r"\d{2}(?P<mark>[-/.])\d{1,2}(?P=mark)\d{1,2}(?!\d)", re.ASCII)
+_NUMBERED = re.compile(r"\d{4}-\d{1,2}-\d{1,2}-\d{1,3}")  # the second run of a day, and no hour
 _NEAR_NS = 10**9  # by which two lines on one start may differ
 _QUARTER_NS, _FARTHEST_NS = 900 * 10**9, 14 * 3600 * 10**9  # zones differ by whole quarters of an hour
 # a zone in the label of a time: 'Start (UTC)', 'Beginn [MESZ]', 'start_utc', 'StartTimeUTC'
@@ -174,13 +175,13 @@ def _split(cell: str) -> tuple[str, str, str]:
 def _read(text: str, zone: str, says: Says, line: str, order: str | None) -> Moment | None:
     """A text as a moment, as it stands or as people write one; None where it is none. zone: that its label names."""
     text = without_places(text)
-    if len(text) > _LONGEST_TIME or not re.search(r"\d", text):
+    if len(text) > _LONGEST_TIME or not re.search(r"\d", text) or _NUMBERED.fullmatch(text):
         return None
     read, place = _read_plain(text, says, line, order), None
     if read is None and (said := spoken(text)) is not None:
         read, place = _read_plain(said.text, says, line, order), said.place
-        if read is not None and read.date_ns is None and not (said.timed or says is Says.BEGAN):
-            return None
+        if says is not Says.BEGAN and (said.lasting or not (said.timed or read is None or read.date_ns is not None)):
+            return None  # which may be a duration
     if read is None or read.zoned or not (zone or place) or read.date_ns is None or read.clock_ns is None:
         return read
     local = read.date_ns + read.clock_ns

@@ -93,6 +93,7 @@ _OTHER = re.compile(
     r"verif\w*|service|wartung|maintenance|warranty|licen[cs]e|lizenz|production|job|shift|schicht)"
 )
 _CAMEL = re.compile(r"(?<=[a-zß-ÿ])(?=[A-Z])")
+_ZONES = re.compile(r"\bIST\b")  # of India, Israel and Ireland, and no German word
 _LONGEST = 60  # letters of a label
 
 
@@ -103,7 +104,7 @@ def said_by(label: str) -> Says | None:
     words = re.findall(r"t_?0\b|[^\W_]+", _CAMEL.sub(" ", label).casefold().replace("t_0", "t0"))
     if not words:
         return None
-    if any(w not in _WORDS for w in words):
+    if any(w not in _WORDS for w in words) or _ZONES.search(label):
         return Says.NAMED if _names_a_start(words) else None
     known = [s for w in words if (s := _WORDS[w]) is not None]
     if not known:

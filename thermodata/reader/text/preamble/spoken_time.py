@@ -78,6 +78,11 @@ _ZONE = re.compile(
     rf"(?<=[\s(])(?:{OFFSET})(?![\d:])|(?<=\d)Z\b"
 )
 _HOURS = re.compile(r"(?i)\d ?h(?:rs?)?(?!\w)|\dh\d")
+# a number of hours, and the word before it: 'a 8 h' tells a time of day
+_HOURS_ALONE = re.compile(r"(?:(?P<word>[^\W\d_]+)\W+)?(?<![\d:.,])\d{1,3} ?h(?:rs?)?(?!\w)")
+_AT = frozenset(
+    ("a", "um", "at", "v", "ve", "alle", "las", "ore", "kl", "om", "o", "as", "ab", "von", "vom", "from", "de", "dalle")
+)
 _LONGEST = 200  # letters that a date is looked for in
 _FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
 
@@ -85,11 +90,13 @@ _FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
 @dataclass(frozen=True, slots=True)
 class Spoken:
     """text: the moment, as formats read it; place: the IANA zone that is named behind it; timed: whether it tells a
-    time of day that is no number of hours: '8 h' may be a duration."""
+    time of day that is no number of hours: '8 h' may be a duration; lasting: whether it may be one beside a date, too:
+    '02.03.2026, 8 h'."""
 
     text: str
     place: str | None
     timed: bool
+    lasting: bool
 
 
 def spoken(text: str) -> Spoken | None:
@@ -100,12 +107,14 @@ def spoken(text: str) -> Spoken | None:
     zone = _ZONE.search(rest)
     if zone is not None:
         rest = f"{rest[: zone.start()]} {rest[zone.end() :]}"
+    hours = _HOURS_ALONE.search(_folded(rest))
+    lasting = hours is not None and hours["word"] not in _AT
     clock, timed, rest = _clock_in(rest)
     left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
     whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
     if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
         return None
-    return Spoken(" ".join(filter(None, (date, clock, zone and zone[0]))), None if zone else place, timed)
+    return Spoken(" ".join(filter(None, (date, clock, zone and zone[0]))), None if zone else place, timed, lasting)
 
 
 def names_a_moment(text: str, started: bool) -> bool:
@@ -115,8 +124,10 @@ def names_a_moment(text: str, started: bool) -> bool:
 
 
 def tells_the_hour(text: str) -> bool:
-    """Whether a time of day stands in a text, beside a date or alone."""
-    return _clock_in(_date_in(" ".join(text.split())[:_LONGEST])[1])[1]
+    """Whether a time of day stands in a text, beside a date or alone, or beside a date hours that may be one."""
+    date, rest = _date_in(" ".join(text.split())[:_LONGEST])
+    clock, timed, _ = _clock_in(rest)
+    return timed or (date is not None and clock is not None)
 
 
 def with_month(label: str, value: str) -> tuple[str, str]:

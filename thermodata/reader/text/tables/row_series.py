@@ -34,7 +34,7 @@ def with_series(table: Table, source: Source) -> Table:
     blocks: list[Block] = []
     pieces: list[int] = []
     for number, (first, lines) in enumerate(parts):
-        for item in reader.read(Chunk("\n".join((*lines, "")).encode(), first, 0, False)):
+        for item in reader.read(Chunk("\n".join((*lines, "")).encode(), first, 0, True)):
             if isinstance(item, Block):
                 blocks.append(item)
                 pieces += [number] * item.t_ns.size

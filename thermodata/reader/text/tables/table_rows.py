@@ -29,6 +29,7 @@ from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 
 _BLOCK_VALUES = 1_000_000
+_HEAD_LINES = 40  # of a further head
 _NONE, _OVER = np.uint16(Flag.NOT_MEASURING), np.uint16(Flag.SATURATED)
 
 
@@ -64,11 +65,14 @@ class RowReader:
         self._repeated = -1  # the last line that repeats the header
         self._last_ns = NAT  # of the rows before a chunk, from their start
         self._anew: dict[int, Begin] = {}  # by the lines of further heads
+        self._held = b""  # lines that are read with the next chunk
 
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
-        data, line = chunk.data, chunk.line
-        self._read = chunk.size
+        data, line = self._held + chunk.data, chunk.line - self._held.count(b"\n")
+        self._held = b"" if chunk.last else self._begins_at_the_end(data)
+        data = data[: len(data) - len(self._held)]
+        self._read = chunk.size - len(self._held)
         told = [_Complaint(number, ODD, 0) for number in chunk.odd]
         if chunk.last and data and not data.endswith(b"\n"):
             cut = data.rfind(b"\n") + 1
@@ -181,17 +185,31 @@ class RowReader:
         size = self._left(data, lines[: number - line])
         return rows.before(number), [*(t for t in told if t.line < number), _Complaint(number, reason, size)]
 
+    def _begins_at_the_end(self, data: bytes) -> bytes:
+        """The last lines of a chunk from one on that may be a further head: only the rows behind it tell."""
+        if self.table.begin is None or self.table.begin.of_day:
+            return b""
+        last = data.rsplit(b"\n", _HEAD_LINES + 1)[1:]
+        for k, text in enumerate(last):
+            if self._begun(text.decode("utf-8", "replace").strip("\r")) is not None:
+                return b"\n".join(last[k:])
+        return b""
+
+    def _begun(self, text: str) -> Begin | None:
+        """The start that a line says which is no row and no header."""
+        above = [text.replace("\t", " ")] if self.table.blanks else self._cells(text)
+        return None if self.table.repeats_header(text) else begun_anew([above], self.table.begin)
+
     def _begin_anew(self, texts: Sequence[tuple[int, str]], lines: Int1D, since_ns: Int1D) -> None:
         """Takes the starts that lines between the rows say, where the time of the rows begins anew behind them. texts:
         (number, text) of lines that are no rows; lines, since_ns: of the rows, shape (n,)."""
         good = since_ns != NAT
         at, ns = lines[good], since_ns[good]
         for number, text in texts:
-            above = [text.replace("\t", " ")] if self.table.blanks else self._cells(text)
-            begin = None if self.table.repeats_header(text) else begun_anew([above], self.table.begin)
+            begin = self._begun(text)
             k = int(np.searchsorted(at, number))
             before = int(ns[k - 1]) if k else self._last_ns
-            if begin is not None and before != NAT and (k == ns.size or ns[k] < before):
+            if begin is not None and before != NAT and k < ns.size and ns[k] < before:
                 self._anew[number] = begin
                 for clock in self.clocks:
                     clock.anew[number] = begin

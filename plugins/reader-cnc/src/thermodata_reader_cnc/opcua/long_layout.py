@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.signals.unit_words import holds_units
+from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
@@ -197,6 +198,8 @@ def _headed_by(
     statuses = [k for k, n in enumerate(header.names) if tells_quality(n) is not None]
     every = (fields(text, delimiter) for text in (*lines[row + 1 :], *later))
     series = _series(header, every, form, {*units, *statuses})
+    if _is_wide(header, series):
+        return None
     found = Layout(
         delimiter=delimiter,
         row=row,
@@ -215,6 +218,13 @@ def _headed_by(
         unread=tuple(header.raw[k] for k in series.unread),
     )
     return replace(found, more=_more(found, header.pairs, units, statuses))
+
+
+def _is_wide(header: _Header, series: Series) -> bool:
+    """Whether the columns beside the value are measured as well, and the tag is a mere word on each row, as an
+    operator's name is: its rows are of no several series."""
+    beside = [header.raw[k] for k in series.measured]
+    return not series.parted and bool(beside) and (not header.said.sure or any(split_unit(c)[1] for c in beside))
 
 
 def _series(header: _Header, rows: Iterable[Sequence[str]], form: TimeFormat, others: Collection[int]) -> Series:

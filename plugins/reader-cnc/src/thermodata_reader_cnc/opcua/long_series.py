@@ -3,6 +3,7 @@ sensor of one name, and read as one they would be a saw of both."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -16,16 +17,20 @@ from thermodata.reader.times.zone import NAT
 _LIVELY = 0.25  # of the rows: a word that changes as often stands for one of several series, and is no state
 _MEET = 0.05  # of the rows share their time with another word's
 _FEWEST = 3  # changes of a word
+_DECIMAL = re.compile(r"[+-]?\d*[.,]\d+(?:[eE][+-]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
     """tags: columns that name a series, together; known: the name of each of those that were seen, by the cells of all
-    tags; unread: columns of numbers that differ and belong to no series."""
+    tags; unread: columns of numbers that differ and belong to no series; measured: those of them with decimals; parted:
+    whether rows are of several series, as their tags, their times or another column tell."""
 
     tags: tuple[int, ...]
     known: Mapping[tuple[str, ...], str]
     unread: tuple[int, ...] = ()
+    measured: tuple[int, ...] = ()
+    parted: bool = True
 
 
 def series_of(names: Sequence[str], rows: Sequence[Sequence[str]], t_ns: Int1D, tag: int, used: set[int]) -> Series:
@@ -52,7 +57,9 @@ def series_of(names: Sequence[str], rows: Sequence[Sequence[str]], t_ns: Int1D, 
     called = tags.index(tag)
     known = {each: "/".join(filter(None, (each[i] for i in shown))) if each[called] else "" for each in found}
     unread = tuple(k for k in free if k not in tags and _is_measured(columns[k]))
-    return Series(tags, known, unread)
+    measured = tuple(k for k in unread if any(map(_DECIMAL.fullmatch, columns[k])))
+    parted = len(chosen) > 1 or _parts([()] * len(times), times, columns[tag], surely=False)
+    return Series(tags, known, unread, measured, parted)
 
 
 def _is_words(name: str, cells: Sequence[str]) -> bool:

@@ -7,12 +7,15 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import (
+    DATETIME,
     UNIX_MS,
     UNIX_NS,
     UNIX_US,
@@ -22,9 +25,11 @@ from thermodata.reader.text.cells.time_pattern import (
     is_zoned,
 )
 from thermodata.reader.text.cells.zone_words import WORDS, stated_zone
+from thermodata.reader.text.preamble.zone_places import place_in
 from thermodata.reader.text.tables.zone_named import named_note
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
+from thermodata.reader.text.times.timestamp import parse
 
 _KNOWN = (
     *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
@@ -50,11 +55,12 @@ _SOME, _ENOUGH = 200, 0.9  # rows that show what a column holds, and their share
 @dataclass(frozen=True, slots=True)
 class Times:
     """places: the columns, the first that a row has is its time; header: of the first, as it stands; zone: the IANA
-    zone that it says its times are in, None where it says none."""
+    zone that it says its times are in, None where it says none; sure: whether it is called as in known exports."""
 
     places: tuple[int, ...]
     header: str
     zone: str | None
+    sure: bool = True
 
     def source(self, source: Source, first: str | None, form: TimeFormat) -> tuple[Source, list[str]]:
         """(the source with the zone that the header says, notes on it). first, form: the first time, and how it is
@@ -79,9 +85,9 @@ def time_columns(
         return _in_one_zone(raw, known)
     worded = sorted((rank, k) for k, cell in enumerate(raw) if k not in others and (rank := _rank(cell)) is not None)
     if worded:
-        return _in_one_zone(raw, tuple(k for _, k in worded))
-    dated = next((k for k in range(len(raw)) if k not in others and _are_dates(rows, k)), None)
-    return None if dated is None else _in_one_zone(raw, (dated,))
+        return replace(_in_one_zone(raw, tuple(k for _, k in worded)), sure=False)
+    dated = next((k for k in range(len(raw)) if k not in others and _go_on(_dates(rows, k))), None)
+    return None if dated is None else replace(_in_one_zone(raw, (dated,)), sure=False)
 
 
 def _in_one_zone(raw: Sequence[str], places: Sequence[int]) -> Times:
@@ -92,7 +98,11 @@ def _in_one_zone(raw: Sequence[str], places: Sequence[int]) -> Times:
 
 def _zone(header: str) -> str | None:
     beside = _BESIDE.match(header)
-    return stated_zone([header]) or ("UTC" if beside and (beside["before"] or "").lower() in ("utc", "gmt") else None)
+    return (
+        stated_zone([header])
+        or place_in(header)[0]
+        or ("UTC" if beside and (beside["before"] or "").lower() in ("utc", "gmt") else None)
+    )
 
 
 def _rank(header: str) -> tuple[int, bool] | None:
@@ -109,10 +119,25 @@ def _rank(header: str) -> tuple[int, bool] | None:
     return rank, _zone(header) != "UTC"
 
 
-def _are_dates(rows: Sequence[Sequence[str]], column: int) -> bool:
-    """Whether nearly all cells of a column are dates with a time of day."""
+def _dates(rows: Sequence[Sequence[str]], column: int) -> list[str]:
+    """The cells of a column of which nearly all are dates with a time of day; none of another."""
     cells = [cell for row in rows[:_SOME] if column < len(row) and (cell := clean(row[column]))]
-    return bool(cells) and sum(is_date_text(c) and says_the_hour(c) for c in cells) >= _ENOUGH * len(cells)
+    dated = [c for c in cells if is_date_text(c) and says_the_hour(c)]
+    return dated if len(dated) >= _ENOUGH * len(cells) else []
+
+
+def _go_on(stamps: Sequence[str]) -> bool:
+    """Whether dates go on from row to row, to later or to earlier ones, as those of a log do; when a sensor was
+    calibrated, or is due again, stands still, or goes to and fro with the sensor."""
+    try:
+        form = time_form(stamps, "", None)
+    except FormatError:  # of day and month, which the reading asks for
+        form = DATETIME["dmy"]
+    if form is None or len(stamps) == 1:
+        return form is not None
+    steps = np.diff(parse(stamps, form))
+    later, earlier = int((steps > 0).sum()), int((steps < 0).sum())
+    return max(later, earlier) > 2 * min(later, earlier)
 
 
 def time_form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
