@@ -81,6 +81,20 @@ def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_p
     assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"
 
 
+def test_an_answer_that_another_version_wrote_is_asked_anew(say: Say, campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    first = say("--store", store, "diagnose", "baseline", "--json")
+    with Store(store).write() as con:
+        for kind, words in (("diagnosis", '{"oldest": 1}'), ("answer:diagnose", '{"answer": {"oldest": 1}}')):
+            con.execute("update finding set payload = json_merge_patch(payload, ?) where kind = ?", [words, kind])
+    refused = say("--store", store, "add", "baseline", "1")
+    assert refused.code == 2
+    assert "thermodata diagnose" in refused.err
+    again = say("--store", store, "diagnose", "baseline", "--json")
+    assert (again.code, again.out) == (0, first.out)
+    assert "from the store" not in again.err
+
+
 def test_a_campaign_without_a_test_is_traced_by_its_tests(say: Say, campaign: Path) -> None:
     said = say("--store", campaign / "thermodata.store", "trace", "small")
     assert said.code == 2

@@ -89,16 +89,77 @@ def test_one_that_moved_and_whose_tests_are_renamed_goes_on(filled: Store, campa
     assert ingest(filled, path).read == 0
 
 
-@pytest.mark.parametrize("logs", [True, False])
-def test_one_that_moved_and_whose_machine_is_renamed_goes_on(
-    filled: Store, campaign: Path, tmp_path: Path, logs: bool
-) -> None:
-    moved = shutil.copytree(campaign.parent, tmp_path / "archive")
-    path = moved / "campaign.yaml"
+def test_one_that_moved_and_whose_machine_is_renamed_goes_on(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    path = shutil.copytree(campaign.parent, tmp_path / "archive") / "campaign.yaml"
     path.write_text(OTHERS)
-    if not logs:
-        shutil.rmtree(moved / "raw")
     assert ingest(filled, path).read == 0
+
+
+def test_without_its_logs_the_machine_must_be_the_same(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    path = shutil.copytree(campaign.parent, tmp_path / "archive") / "campaign.yaml"
+    shutil.rmtree(path.parent / "raw")
+    path.write_text(OTHERS)
+    with pytest.raises(UsageError, match=r"the machine only got another name: thermodata ingest --replace"):
+        ingest(filled, path)
+    path.write_text(CAMPAIGN)
+    assert ingest(filled, path).read == 0
+
+
+def test_another_machine_at_the_same_path_is_another_campaign(store: Store, campaign: Path) -> None:
+    """A store on a share, and C:/messung of two computers."""
+    ingest(store, campaign)
+    others(campaign.parent)
+    before = held(store)
+    with pytest.raises(UsageError, match="that file, of another machine"):
+        ingest(store, campaign)
+    assert held(store) == before
+
+
+def test_a_machine_may_be_renamed_where_its_logs_stay(store: Store, campaign: Path) -> None:
+    ingest(store, campaign)
+    campaign.write_text(OTHERS)
+    assert ingest(store, campaign).read == 0
+
+
+def test_a_log_of_several_tests_proves_nothing(filled: Store, tmp_path: Path) -> None:
+    campaign = others(tmp_path / "messung")
+    (campaign.parent / "raw/one_a.npz").unlink()
+    with pytest.raises(UsageError, match="another campaign"):
+        ingest(filled, campaign)
+
+
+def grown(folder: Path) -> None:
+    for i, log in enumerate(sorted(folder.glob("raw/*_a.npz"))):
+        write_log(log, daq(seed=60 + i))
+
+
+def test_one_that_moved_is_the_same_though_all_its_logs_changed(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    moved = shutil.copytree(campaign.parent, tmp_path / "archive") / "gantry.yaml"
+    moved.with_name("campaign.yaml").rename(moved)
+    grown(moved.parent)
+    assert ingest(filled, moved).read == 2
+
+
+def test_no_draft_is_taken_for_another_by_its_unknown_machine(store: Store, tmp_path: Path) -> None:
+    draft = CAMPAIGN.replace('"138"', "unknown")
+    ingest(store, write_campaign(tmp_path / "lab", draft))
+    with pytest.raises(UsageError, match="another campaign"):
+        ingest(store, others(tmp_path / "messung", draft))
+
+
+def test_where_it_stands_is_kept_though_nothing_else_changed(filled: Store, campaign: Path, tmp_path: Path) -> None:
+    moved = shutil.copytree(campaign.parent, tmp_path / "archive") / "campaign.yaml"
+    assert ingest(filled, moved).changed is False
+    with filled.reader() as con:
+        assert con.execute("select path from campaign").fetchall() == [(str(moved),)]
+    assert ingest(filled, moved).changed is False
+    moved.write_text(CAMPAIGN.replace("id: one", "id: june").replace("id: two", "id: july"))
+    for test, name in (("one", "june"), ("two", "july")):
+        (moved.parent / f"raw/{test}_a.npz").unlink()
+        write_log(moved.parent / f"raw/{name}_a.npz", daq(seed=70 + len(name)))
+    link = tmp_path / "link"
+    link.symlink_to(moved.parent)
+    assert ingest(filled, link / ".." / "archive" / "campaign.yaml").tests == 2
 
 
 def test_one_at_the_same_place_may_change_its_tests_one_by_one(filled: Store, campaign: Path) -> None:

@@ -29,6 +29,14 @@ def read_document(kind: type[_M], text: str, where: str) -> _M:
         raise _of_another_version(error, where) from error
 
 
+def readable(kind: type[_M], text: str) -> _M | None:
+    """The same of an answer, which is asked again where another version wrote it: None then."""
+    try:
+        return kind.model_validate_json(text)
+    except ValidationError:
+        return None
+
+
 def by_another_version(error: Exception) -> StoreError | None:
     """The same of a document whose reader did not say so; None for any other error."""
     if not isinstance(error, ValidationError) or error.title not in {kind.__name__ for kind in KEPT}:

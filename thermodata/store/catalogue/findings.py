@@ -6,16 +6,21 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from pydantic import BaseModel
+
 from thermodata.errors import StoreError
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.document import read_document
+from thermodata.store.catalogue.document import readable
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:
     import duckdb
 
+# what a question, by its first word, is answered with
+_DOCUMENTS: Mapping[str, type[BaseModel]] = {"diagnose": Diagnosis, "confirm": Confirmed}
 _OF_A_DIAGNOSIS = ("diagnosis", "weak_spot", "candidate", "artefact")
 
 
@@ -32,14 +37,14 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
 
 
 def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
-    """The model's latest diagnosis, or None."""
+    """The model's latest diagnosis; None where there is none, or one of another version that is to be asked again."""
     with store.reader() as con:
         rows = fetch(
             con,
             "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
             [model],
         )
-    return read_document(Diagnosis, rows[0]["payload"], f"the diagnosis of {model}") if rows else None
+    return readable(Diagnosis, rows[0]["payload"]) if rows else None
 
 
 def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
@@ -55,12 +60,15 @@ def keep_answer(store: Store, model: str, question: str, key: str, payload: str)
 
 
 def kept_answer(store: Store, model: str, question: str, key: str | None = None) -> str | None:
-    """The JSON of an answer that was made from the same; None where there is none, or it is of another key. Without a
-    key: what was answered last."""
+    """The JSON of an answer that was made from the same; None where there is none, it is of another key, or another
+    version wrote it in other words. Without a key: what was answered last."""
     with store.reader() as con:
         rows = fetch(con, "select payload from finding where model = ? and kind = ?", [model, f"answer:{question}"])
     kept = json.loads(rows[0]["payload"]) if rows else None
-    return json.dumps(kept["answer"]) if kept is not None and key in (None, kept["key"]) else None
+    if kept is None or key not in (None, kept["key"]):
+        return None
+    answer, kind = json.dumps(kept["answer"]), _DOCUMENTS.get(question.partition(" ")[0])
+    return answer if kind is None or readable(kind, answer) is not None else None
 
 
 def _row(kind: str, payload: str, campaign: str = "", test: str = "", rank: int | None = None) -> dict[str, Any]:

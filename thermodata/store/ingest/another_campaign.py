@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,32 +15,61 @@ from thermodata.store.ingest.known.inventory import Inventory
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 
 _NAMED = 3  # tests
+_UNKNOWN = "unknown"  # the machine of a campaign that `init` drafted, until somebody writes its number
 
 
 def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> None:
     """UsageError where the store holds another campaign with that id, whose tests and logs would go. path: of the
     campaign file.
 
-    It is the same one where it stands at the same path, or where a test has all the logs of one that is held, or some
-    of them and no other: so it may move, and its machine and tests may get other names. A log that all campaigns of a
-    hall share makes none the same."""
+    It is the same one where it stands at the same place and its machine is no other, where the machine is the same and
+    a test too, or where its logs say so: then it may move, and its machine and tests may get other names."""
     held = _logs_held(inventory)
-    if inventory.campaign is None or not held or inventory.campaign["path"] == str(path):
+    if inventory.campaign is None or not held:
         return
-    found = {t.id: _logs_found(files, t) for t in files.campaign.tests}
-    if any(logs and (logs <= before or logs >= before) for logs in found.values() for before in held.values()):
+    machines = {_machine_in(json.loads(inventory.campaign["spec"])), files.campaign.machine.id}
+    stays = is_same_place(inventory.campaign["path"], path)
+    if len(machines - {_UNKNOWN}) < 2 and stays:
         return
-    if not any(found.values()) and not held.keys().isdisjoint(found):
-        return  # it came without its logs, for which the store's raw copies stand
+    tests = {t.id for t in files.campaign.tests}
+    if len(machines) == 1 and _UNKNOWN not in machines and not held.keys().isdisjoint(tests):
+        return
+    if _has_its_logs(held, {t.id: _logs_found(files, t) for t in files.campaign.tests}):
+        return
     raise UsageError(
         f"the store holds another campaign with the id '{inventory.name}'",
         where="id",
-        expected="the same campaign file, or a test with the logs that it has in the store",
-        got=f"none of them; the store's is that of {_machines(inventory)}, {inventory.campaign['path']}, with "
+        expected="the same machine with the same file or a test that is held, or a test with the logs "
+        "that it has there",
+        got=f"{'that file, of another machine' if stays else 'none of them'}; the store's is that of "
+        f"{_machines(inventory)}, {inventory.campaign['path']}, with "
         f"{counted(len(held), 'test')}: {with_count(held, _NAMED)}",
-        hint=f"write an id of its own ('{_own_id(files.campaign)}'), or, where the store's tests are to go: "
-        "thermodata ingest --replace",
+        hint=f"write an id of its own ('{_own_id(files.campaign)}'), or, where the store's tests are to go, or the "
+        "machine only got another name: thermodata ingest --replace",
     )
+
+
+def is_same_place(stored: str, path: Path) -> bool:
+    """Whether two paths lead to one file, over links and '..' too."""
+    return stored == str(path) or Path(stored).resolve() == path.resolve()
+
+
+def _has_its_logs(held: Mapping[str, set[str]], found: Mapping[str, set[str]]) -> bool:
+    """Whether a test has all the logs of one that is held, or some of them and no other; or all logs are here that are
+    held. One that several tests share, as all campaigns of a hall may share it, proves nothing of a test."""
+    if set().union(*held.values()) <= set().union(*found.values()):
+        return True
+    shared = _of_several(held) | _of_several(found)
+    return any(
+        now and before and (now <= before or now >= before)
+        for now in (logs - shared for logs in found.values())
+        for before in (logs - shared for logs in held.values())
+    )
+
+
+def _of_several(logs: Mapping[str, set[str]]) -> set[str]:
+    """The logs of more than one test."""
+    return {log for log, tests in Counter(x for own in logs.values() for x in own).items() if tests > 1}
 
 
 def _logs_held(inventory: Inventory) -> dict[str, set[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
@@ -17,7 +18,7 @@ from thermodata.schema.words.sentences import counted
 from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
-from thermodata.store.ingest.another_campaign import refuse_another
+from thermodata.store.ingest.another_campaign import is_same_place, refuse_another
 from thermodata.store.ingest.catalogue_rows import calibration_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
 from thermodata.store.ingest.known.files_taken_out import files_taken_out
@@ -123,7 +124,7 @@ def _ingest(
     left = left_alone(lines, files.tests_with(earlier.differs))
     with store.marked_reader() as (con, mark):
         inventory = _inventory(con, store, files, left, mark == earlier.kept.get("mark"))
-    if not in_its_place and not earlier.holds(campaign.id, mark):
+    if not in_its_place and not left.tests:  # which are left alone where the campaign file says what it said
         refuse_another(inventory, files, path.absolute())
     refuse_older_reader(inventory, files)
     layers = make_layers(files, inventory, left, now)
@@ -135,6 +136,7 @@ def _ingest(
     changed = changes(planned, inventory)
     if layers.is_as_stored and nothing_new(planned, inventory, changed):
         summary = again
+        mark = _keep_place(store, mark, inventory, path.absolute())
     else:
         mark = new_mark()
         allowed = None if in_its_place else files
@@ -153,6 +155,21 @@ def _ingest(
         summary.notes += _not_listed(store, files, path, listed)
     summary.seconds = time.monotonic() - began
     return summary
+
+
+def _keep_place(store: Store, mark: str, inventory: Inventory, path: Path) -> str:
+    """Keeps where the campaign file stands now, of which nothing else changed; the store's mark then. mark: before.
+    A store that is busy or may only be read is left as it is."""
+    if inventory.campaign is None or is_same_place(inventory.campaign["path"], path):
+        return mark
+    moved = new_mark()
+    with suppress(StoreError, OSError):
+        with store.write(views=False, mark=moved) as con:
+            if generation_of(con) != inventory.generation:
+                raise StoreError("another commit came meanwhile", where=str(store.path))
+            con.execute("update campaign set path = ? where campaign = ?", [str(path), inventory.name])
+        return moved
+    return mark
 
 
 def _not_listed(store: Store, files: CampaignFiles, path: Path, listed: Collection[str]) -> list[str]:
@@ -177,10 +194,6 @@ class _Earlier:
     answer: IngestSummary | None
     differs: Collection[str] = ()
     lines: Mapping[str, str] = field(default_factory=dict)
-
-    def holds(self, campaign: str, mark: str) -> bool:
-        """Whether what the store holds under that id came from here, or was the same. mark: of its last commit."""
-        return bool(mark) and self.kept.get("mark") == mark and self.kept["summary"].get("campaign") == campaign
 
 
 def _look_back(files: CampaignFiles, path: Path, mark: str, noted_by_path: bool) -> _Earlier:
