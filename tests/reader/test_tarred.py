@@ -57,7 +57,10 @@ DAMAGED: dict[str, tuple[bytes, str]] = {
     "cut before a header": (THREE[:STEP], "before its end mark"),
     "cut within a file": (THREE[: STEP + 700], "before its end mark"),
     "two archives": (entry("a.csv") + END + entry("b.csv") + END, "more stands behind its end mark"),
-    "headers of headers": (entry("././@LongLink", b"a.csv\0", b"L") * 3000 + THREE + END, "recursion"),
+    "headers of headers": (
+        entry("././@LongLink", b"a.csv\0", b"L") * 3000 + THREE + END,
+        "one header stands before the other",
+    ),
 }
 
 

@@ -36,7 +36,6 @@ _WRONG = (
     ValueError,
     EOFError,
     NotImplementedError,
-    RecursionError,
 )  # of an archive
 
 

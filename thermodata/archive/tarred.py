@@ -35,7 +35,10 @@ def tarred(archive: Path, most: int) -> list[Member]:
         packer = packed_by(file.read(16))
         file.seek(0)
         with closing(cast(Unpacking, file) if packer is None else OPEN[packer](file)) as stream:
-            return _members(_Forward(stream, archive.name, most))
+            try:
+                return _members(_Forward(stream, archive.name, most))
+            except RecursionError:
+                raise tarfile.ReadError("one header stands before the other, and no file behind them") from None
 
 
 def _members(stream: _Forward) -> list[Member]:
@@ -85,7 +88,7 @@ class _Forward:
         self._header, self._headers = self._header + size, self._headers + size
         self._block = self._read(size)
         if len(self._block) < size:
-            raise EOFError(f"it ends at byte {self._at}, before its end mark: what came behind is lost")
+            raise EOFError("it ends before its end mark: what came behind is lost")
         return self._block
 
     def seek(self, to: int) -> int:

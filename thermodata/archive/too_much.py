@@ -25,7 +25,7 @@ def more_than_logs(name: str, most: int, files: int, size: int) -> FormatError:
         "an archive that unpacks to more than logs do",
         where=name,
         expected=f"at most {MOST_FILES} files and {most} bytes",
-        got=f"{files} files and {size} bytes" if files else f"{size} bytes, and more",
+        got=f"{files} files or folders and {size} bytes" if files else f"{size} bytes, and more",
         hint="unpack it yourself, beside the others",
     )
 
