@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from thermodata.draft.campaign.parts import DraftChannel
+from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import values_of
 
@@ -53,3 +55,13 @@ def test_a_letter_that_may_be_both_is_asked(name: str) -> None:
 def test_a_letter_that_is_no_unit_is_the_axis(name: str, unit: str | None, at: str) -> None:
     found = guess(name, unit, "float64", WARM)
     assert (found.at, found.questions) == (at, ())
+
+
+@pytest.mark.parametrize(("others", "at"), [(("current_x", "current_c"), "rotary.a"), (("T_x",), None)])
+def test_the_letter_of_an_axis_among_those_of_others_is_one(others: tuple[str, ...], at: str | None) -> None:
+    names = ("current_a", *others)
+    guesses = [guess(n, None, "float64", CURRENT if "current" in n else WARM) for n in names]
+    channels = [DraftChannel(n, "log", n, None, g) for n, g in zip(names, guesses, strict=True)]
+    found = beside_each_other(channels)[0].said
+    assert found.at == at
+    assert (not found.questions) == (at is not None)

@@ -13,14 +13,16 @@ from thermodata.draft.words.vocabulary import places_in
 from thermodata.reader.text import split_unit
 
 _END = re.compile(r"(?:.* )?(\S+) ([frl])")
+_OF_AXES = ("axis.", "rotary.")
+_LETTER = re.compile(r"(?:(.*) )?([xyzuvwabc])")
 _WITH_SIDES = ("column", "bed", "ram", "crossbeam")
 _ORDER = {2: "second", 3: "third", 4: "fourth"}
 
 
 def beside_each_other(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
-    """The channels, the letters of sides read together, several spindles told apart, and speeds that would all be the
-    spindle's asked."""
-    return _speeds(_spindles(_sides(list(channels))))
+    """The channels, the letters of sides read together, several spindles told apart, the A of an axis
+    among those of other axes read as one, and speeds that would all be the spindle's asked."""
+    return _speeds(_spindles(_axes(_sides(list(channels)))))
 
 
 def _own(channel: DraftChannel) -> str:
@@ -42,6 +44,28 @@ def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
         elif end and letters == {"r"} and channel.said.at == f"{part}.right" and not channel.said.questions:
             asked = (f"at: {part}.right or .rear?",)
             channel = replace(channel, said=replace(channel.said, sure=False, questions=asked))
+        made.append(channel)
+    return made
+
+
+def _axes(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """The A of current_a is the axis beside current_x and current_c; alone it is the ampere."""
+    placed = {
+        (c.source, c.said.quantity, m[1] or ""): c.said.at
+        for c in channels
+        if (m := _LETTER.fullmatch(_own(c)))
+        and m[2] != "a"
+        and c.said.at
+        and c.said.at.startswith(("axis.", "rotary."))
+    }
+    made = []
+    for channel in channels:
+        end = _LETTER.fullmatch(_own(channel))
+        other = placed.get((channel.source, channel.said.quantity, end[1] or "")) if end and end[2] == "a" else None
+        if other is not None and channel.said.quantity == "current" and channel.said.at is None:
+            part = ".".join(("rotary.a", *other.split(".")[2:]))
+            asked = tuple(q for q in channel.said.questions if not q.startswith("at: "))
+            channel = replace(channel, said=replace(channel.said, at=part, sure=False, questions=asked))
         made.append(channel)
     return made
 
