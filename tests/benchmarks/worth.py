@@ -70,7 +70,9 @@ def count(trials: Sequence[Trial], hit: Callable[[Trial], bool]) -> str:
 
 def best_rival(trials: Sequence[Trial]) -> str:
     tried = [t for t in trials if t["rivals"]]
-    shares = {m: sum(t["rivals"][m] for t in tried) / len(tried) for m in RIVALS} if tried else {}
+    if not tried:
+        return "-"
+    shares = {m: sum(t["rivals"][m] for t in tried) / len(tried) for m in RIVALS}
     return max((f"{100 * share:.0f} %, {m}" for m, share in shares.items()), key=lambda s: float(s.split()[0]))
 
 

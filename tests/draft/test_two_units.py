@@ -58,3 +58,12 @@ def test_ingest_tells_two_units_that_nobody_decided(tmp_path: Path, row: str, de
     (tmp_path / "campaign.yaml").write_text(CAMPAIGN % declared, encoding="utf-8")
     summary = ingest(Store(tmp_path / "store", create=True), tmp_path / "campaign.yaml")
     assert any("'dZ [mm]' says mm, and the file gives it in µm" in str(x["reason"]) for x in summary.losses) == told
+
+
+def test_ingest_tells_a_name_of_before_the_scaling_as_no_loss(tmp_path: Path) -> None:
+    write(tmp_path, "dZ [V]", ";µm;1/min")
+    (tmp_path / "campaign.yaml").write_text(CAMPAIGN % "", encoding="utf-8")
+    summary = ingest(Store(tmp_path / "store", create=True), tmp_path / "campaign.yaml")
+    told = "'dZ [V]' says V, and the file gives it in µm"
+    assert not any(told in str(x["reason"]) for x in summary.losses)
+    assert any(told in note for note in summary.notes)

@@ -17,6 +17,27 @@ JUMP = (
 )
 
 
+def with_a_jump(campaign: Path, at_s: int, said: str) -> None:
+    """The jump test lies in the log of the test 'one', at a time. said: in the line of that test, besides."""
+    log, t = daq(), np.arange(1200)
+    log["main"]["Z"] += 1.0 * ((t >= at_s) & (t < at_s + 50))
+    write_log(campaign.parent / "raw/one_a.npz", log)
+    text = campaign.read_text(encoding="utf-8").replace("calibrations:\n", JUMP)
+    text = text.replace("calibration: lvdt}", "calibration: jump}").replace(
+        "speed: 9000 rpm}", "speed: 9000 rpm}" + said
+    )
+    campaign.write_text(text, encoding="utf-8")
+
+
+def test_moves_that_measuring_may_leave_out_are_no_loss(store: Store, campaign: Path) -> None:
+    with_a_jump(campaign, 30, ', measuring: "speed > 100"')
+    summary = ingest(store, campaign)
+    assert not any("the moves of the jump test" in x["reason"] for x in summary.losses)
+    (told,) = [x for x in summary.notes if "the moves of the jump test" in x]
+    assert "test 'one'" in told
+    assert "but for what its measuring leaves out" in told
+
+
 @pytest.mark.parametrize(
     ("at_s", "window", "proposed"),
     [
@@ -30,14 +51,7 @@ JUMP = (
 def test_the_moves_of_a_jump_test_in_a_test(
     store: Store, campaign: Path, at_s: int, window: str, proposed: str | None
 ) -> None:
-    log, t = daq(), np.arange(1200)
-    log["main"]["Z"] += 1.0 * ((t >= at_s) & (t < at_s + 50))
-    write_log(campaign.parent / "raw/one_a.npz", log)
-    text = campaign.read_text(encoding="utf-8").replace("calibrations:\n", JUMP)
-    text = text.replace("calibration: lvdt}", "calibration: jump}").replace(
-        "speed: 9000 rpm}", "speed: 9000 rpm}" + window
-    )
-    campaign.write_text(text, encoding="utf-8")
+    with_a_jump(campaign, at_s, window)
     told = [
         x for x in ingest(store, campaign).losses if "the moves of the jump test jump lie in this test" in x["reason"]
     ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 from thermodata.errors import UsageError
@@ -48,16 +48,16 @@ def _counted(version: str) -> tuple[int, ...]:
 
 def read_by_another(inventory: Inventory, rows: Mapping[str, list[Row]]) -> list[str]:
     """A line for each reader whose version changed while the logs did not. rows: of the table `file`, by test."""
-    found: Counter[tuple[str, str, str]] = Counter()
+    found: defaultdict[tuple[str, str, str], set[str]] = defaultdict(set)  # hashes: one log may be of many tests
     for test, planned in rows.items():
         before, now = (_readers(of_test) for of_test in (inventory.rows["file"].get(test, []), planned))
         for log, (name, version) in now.items():
             if before.get(log, (name, version))[1] != version and before[log][0] == name:
-                found[name, before[log][1], version] += 1
+                found[name, before[log][1], version].add(log[2])
     return [
-        f"reader {name} {was} -> {now}: {counted(n, 'log')} {'was' if n == 1 else 'were'} read anew by it, and "
-        f"{'is' if n == 1 else 'are'} unchanged; what differs now comes from the program"
-        for (name, was, now), n in found.items()
+        f"reader {name} {was} -> {now}: {counted(len(logs), 'log')} {'was' if len(logs) == 1 else 'were'} read anew by "
+        f"it, and {'is' if len(logs) == 1 else 'are'} unchanged; what differs now comes from the program"
+        for (name, was, now), logs in found.items()
     ]
 
 

@@ -23,7 +23,7 @@ from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote, column
 from thermodata.store.ingest.tidy_rows import count, duration_s, step_s, tidy_rows
 from thermodata.store.ingest.told.beyond_the_end import beyond_the_end
 from thermodata.store.ingest.told.empty_channels import empty_channels
-from thermodata.store.ingest.told.jumps_inside import jumps_inside
+from thermodata.store.ingest.told.jumps_inside import tell_jumps_inside
 from thermodata.store.ingest.told.losses import Losses, loss_row
 from thermodata.store.ingest.told.other_heads import head_of, other_heads
 from thermodata.store.ingest.told.other_units import other_units
@@ -113,7 +113,7 @@ def tidy_tests(
                 _add_rows(layer, test, calibrations, now)
                 _note_courses(note, test)
                 _note_verdicts(note, test)
-                plan.problems += filter(None, [jumps_inside(plan, test.where, test.clocks, calibrations)])
+                tell_jumps_inside(plan, test.where, test.clocks, calibrations)
             tell_unscaled(store, plan)
             note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]

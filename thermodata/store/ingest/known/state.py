@@ -9,7 +9,7 @@ from functools import lru_cache
 from thermodata.store.base.files import key_of
 from thermodata.store.catalogue.models import GONE
 from thermodata.store.catalogue.renamed import CHANNELS, origins
-from thermodata.store.ingest.known.inventory import Row, meta_of
+from thermodata.store.ingest.known.inventory import Row, comparable, meta_of
 
 Rows = Mapping[str, Mapping[str, Sequence[Row]]]
 State = Mapping[str, str]
@@ -30,6 +30,8 @@ _NAMED = {
     "units or signals": ("channel", ("source", "signal", "quantity", "unit", "raw_unit"), None),
 }
 _NAMES = "channel names"
+# word -> the digest that stands for it where a state has one: states of before have another one under the word
+_ANEW = {"calibration": "gains"}
 # not compared: why data differ that are of the same logs
 _LOGS, _READERS = "logs", "readers"
 # of a calibration, what a fit reads
@@ -60,7 +62,8 @@ def version_of(rows: Rows, test: str) -> str:
 
 def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[str, State | None]:
     """Test -> its state; None where it is not there. calibrations: of the campaign."""
-    calibrated = key_of(*sorted(repr([row[c] for c in _GAINS]) for row in calibrations))
+    calibrated = key_of(*comparable(calibrations))
+    gains = key_of(*sorted(repr([row[c] for c in _GAINS]) for row in calibrations))
 
     def of(test: str) -> State | None:
         if not rows["test"].get(test):
@@ -73,7 +76,7 @@ def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[
             )
             for word, (table, columns, layer) in _NAMED.items()
         }
-        named["calibration"] += calibrated
+        named |= {_ANEW["calibration"]: named["calibration"] + gains, "calibration": named["calibration"] + calibrated}
         raw = [r for r in rows["file"].get(test, []) if r["layer"] == "raw"]
         readers = {(meta_of(r)["reader"], meta_of(r)["reader_version"]) for r in raw}
         channels = origins(rows["channel"].get(test, []))
@@ -94,7 +97,8 @@ def what_differs(then: State, now: State | None) -> list[str]:
     read."""
     if now is None:
         return [GONE]
-    found = [word for word in _NAMED if then.get(word) != now.get(word)]
+    keys = {word: _ANEW[word] if _ANEW.get(word) in then else word for word in _NAMED}
+    found = [word for word, key in keys.items() if then.get(key) != now.get(key)]
     if "data" in found and (other := _other_readers(then, now)):
         found[found.index("data")] = other
     if CHANNELS in then and then[CHANNELS] != now.get(CHANNELS) and "units or signals" not in found:

@@ -30,11 +30,11 @@ class _Moves:
     ends_s: float
 
 
-def jumps_inside(
+def tell_jumps_inside(
     plan: TestPlan, where: Span, clocks: Mapping[str, Clock], calibrations: Mapping[str, CalibrationResult]
-) -> str | None:
-    """What is told of a test whose measurement holds the moves of jump tests, with the window that leaves them out;
-    None of another. where: the test on its time line; clocks: of its sources."""
+) -> None:
+    """Tells of a test whose measurement holds the moves of jump tests, with the window that leaves them out: a problem,
+    or a note where its `measuring` may leave them out. where: the test on its time line; clocks: of its sources."""
     window = plan.test.window
     begin_ns = where.zero_ns - (round(window[0] * 1e9) if window is not None else 0)
     low, high = window if window is not None else (-math.inf, math.inf)
@@ -44,18 +44,24 @@ def jumps_inside(
         if m.to_s > low + _NEARLY_S and m.from_s < high - _NEARLY_S
     ]
     if not found:
-        return None
+        return
     first, last = min(m.from_s for m in found), max(m.to_s for m in found)
     a, b = max(low, 0.0), min(high, max(m.ends_s for m in found))
     # what is longer, before the moves or behind them, is the test
     kept = (math.ceil(last), math.floor(b)) if b - last >= first - a else (math.ceil(a), math.floor(first))
     names = listed([m.name for m in found])
     many = len(found) > 1
-    return (
+    measures = plan.test.measuring is not None
+    told = (
         f"the moves of the jump test{'s' if many else ''} {names} lie in this test, {first:.0f} to {last:.0f} s from "
-        f"its start in {found[0].file}, and are stored as if the machine had grown; try: "
+        f"its start in {found[0].file}, and are stored as if the machine had grown"
+        f"{', but for what its measuring leaves out' if measures else ''}; try: "
         f"window: [{kept[0]} s, {kept[1]} s] in the test"
     )
+    if measures:
+        plan.notes.append(f"test '{plan.test.id}': {told}")
+    else:
+        plan.problems.append(told)
 
 
 def _moves(

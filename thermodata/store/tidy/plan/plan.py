@@ -11,7 +11,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.finding.match import NoSignalError
 from thermodata.reader.text.names.unit_in_name import other_unit
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.units.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED, converts
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import schedule
 from thermodata.store.tidy.rows.in_parts import Found, InPart, find_in_parts
@@ -184,8 +184,8 @@ def bind(plan: TestPlan) -> None:
             source.parts |= found.parts
             if found.note is not None:
                 plan.notes.append(f"channel '{name}': {found.note}")
-            if channel.unit is None and (said := _two_units(found, channel)):
-                plan.problems.append(f"channel '{name}': {said}")
+            if channel.unit is None:
+                _tell_two_units(plan, name, found, channel)
             unit = channel.unit or found.unit
             plan.bound[name] = Bound(name, channel, source.name, found.raw.stream, found.signal, unit)
     for name, channel in channels.items():
@@ -196,15 +196,16 @@ def bind(plan: TestPlan) -> None:
     _say_what_parts_it(plan)
 
 
-def _two_units(found: Found, channel: Channel) -> str | None:
-    """What is told of a signal whose name says another unit than its file, where the campaign file says none."""
+def _tell_two_units(plan: TestPlan, name: str, found: Found, channel: Channel) -> None:
+    """Tells of a signal whose name says another unit than its file, where the campaign file says none. One of both is
+    wrong where they convert; where not, the name may be of before the file's scaling."""
     own = other_unit(found.signal.name, found.signal.unit, channel.quantity == "temperature_difference")
     if own is None or found.signal.scaling is not None or channel.quantity in ("label", "state"):
-        return None
-    by = found.signal.unit
-    return (
-        f"the name '{found.signal.name}' says {own}, and the file gives it in {by}, which is taken; try: "
-        f'unit: "{by}" in the channel, or, where the name is right, unit: "{own}", instead_of: "{by}"'
+        return
+    by = str(found.signal.unit)
+    (plan.problems if converts(own, by) else plan.notes).append(
+        f"channel '{name}': the name '{found.signal.name}' says {own}, and the file gives it in {by}, which is taken; "
+        f'try: unit: "{by}" in the channel, or, where the name is right, unit: "{own}", instead_of: "{by}"'
     )
 
 
