@@ -116,7 +116,8 @@ def test_parameters_are_told_with_interval_bound_and_what_a_gain_is_of() -> None
 def test_the_least_p_that_can_come_out_is_called_that() -> None:
     said = text("effect", candidate(1, "screw", claimed=True), candidate(2, "sun"), candidate(3, "mill", p_value=0.13))
     assert "0.00500" not in said
-    assert "0.005 is the least that can come out" in said
+    assert "0.005 is the least that can come out, so rows that have it are told apart by their errors" in said
+    assert "p: of responses in which nothing is missing, the share on which chance does as well;" in said
     assert "the least that can" not in text("effect", candidate(1, "screw", claimed=True))
 
 

@@ -22,8 +22,8 @@ BOTH_WITH = (
 )
 _LEAST_P = 0.005
 LEAST_P = (
-    "p: the share of responses in which nothing is missing on which chance does as well; 0.005 is the least that can "
-    "come out, so what has it is told apart by the errors"
+    "p: of responses in which nothing is missing, the share on which chance does as well; 0.005 is the least that can "
+    "come out, so rows that have it are told apart by their errors"
 )
 AS_MODELLED = (
     "before and after are of the model as it stands, one lag an effect; in the other rows its effects may act otherwise"
