@@ -22,9 +22,9 @@ Say = Callable[..., Said]
 
 
 def test_a_colleagues_campaign_of_the_same_id_is_refused_or_replaced_on_demand(
-    say: Say, campaign: Path, tmp_path: Path
+    say: Say, made_campaign: Path, tmp_path: Path
 ) -> None:
-    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
     theirs = write_campaign(tmp_path / "messung")
     theirs.write_text(theirs.read_text().replace('id: "138"', "id: HMC01"))
     for log in (tmp_path / "messung/raw").iterdir():
@@ -49,8 +49,8 @@ def test_init_says_that_another_campaign_has_the_folders_name(say: Say, campaign
     assert "\nid: hall-small" in (tmp_path / "hall/small/campaign.yaml").read_text()
 
 
-def test_a_fit_of_another_version_is_no_defect(say: Say, campaign: Path, tmp_path: Path) -> None:
-    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+def test_a_fit_of_another_version_is_no_defect(say: Say, made_campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
     with Store(store).write() as con:
         con.execute("update model set result = json_merge_patch(result, '{\"newest_key\": 1}')")
     said = say("--store", store, "history", "baseline")
@@ -61,8 +61,8 @@ def test_a_fit_of_another_version_is_no_defect(say: Say, campaign: Path, tmp_pat
 
 
 @pytest.mark.parametrize("data", [True, False])
-def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_path: Path, data: bool) -> None:
-    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+def test_another_answer_of_earlier_rules_is_told(say: Say, made_campaign: Path, tmp_path: Path, data: bool) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
     first = say("--store", store, "diagnose", "baseline", "--json")
     assert "asked anew" not in first.err
     found = Diagnosis.model_validate({k: v for k, v in json.loads(first.out).items() if k != "stale"})
@@ -81,8 +81,8 @@ def test_another_answer_of_earlier_rules_is_told(say: Say, campaign: Path, tmp_p
     assert "asked anew" not in say("--store", store, "diagnose", "baseline", "--json").err, "it said the same"
 
 
-def test_an_answer_that_another_version_wrote_is_asked_anew(say: Say, campaign: Path, tmp_path: Path) -> None:
-    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "own.store")
+def test_an_answer_that_another_version_wrote_is_asked_anew(say: Say, made_campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
     first = say("--store", store, "diagnose", "baseline", "--json")
     with Store(store).write() as con:
         for kind, words in (("diagnosis", '{"oldest": 1}'), ("answer:diagnose", '{"answer": {"oldest": 1}}')):
@@ -150,16 +150,15 @@ def test_an_action_has_its_own_help(say: Say, words: list[str], usage: str, told
     assert not_told not in said.out
 
 
-def test_an_unknown_model_is_answered_with_those_that_are_there(say: Say, campaign: Path, tmp_path: Path) -> None:
-    said = say("--store", campaign / "thermodata.store", "history", "nix")
+def test_an_unknown_model_is_answered_with_those_that_are_there(say: Say, own: Path, tmp_path: Path) -> None:
+    said = say("--store", own / "thermodata.store", "history", "nix")
     assert "expected: baseline" in said.err
     assert "thermodata models lists" in said.err
     Store(tmp_path / "s", create=True)
     assert "thermodata fit MODEL.yaml" in say("--store", tmp_path / "s", "history", "nix").err
 
 
-def test_one_stale_model_is_one(say: Say, campaign: Path, tmp_path: Path) -> None:
-    own = shutil.copytree(campaign, tmp_path / "own")
+def test_one_stale_model_is_one(say: Say, own: Path) -> None:
     file = own / "campaign.yaml"
     file.write_text(
         file.read_text().replace(

@@ -167,8 +167,8 @@ MUTANTS = [
     text("preamble/begin.py", "if said.several or not first.ns:", "if not first.ns:", "of two starts one is taken"),
     text(
         "preamble/begin.py",
-        "if said.either else (begin, None)",
-        "if False else (begin, None)",
+        "if said.either else (begin and replace",
+        "if False else (begin and replace",
         "day and month are guessed",
     ),
     text(
@@ -182,8 +182,8 @@ MUTANTS = [
     ),
     text(
         "preamble/begin.py",
-        "None, _NOTHING if declared == HEAD else None",
-        "None, None",
+        "return None, _NOTHING.format(declared)",
+        "return None, None",
         "a start that is not there is silent",
     ),
     text(
@@ -261,8 +261,8 @@ MUTANTS = [
     ),
     text(
         "tables/table_rows.py",
-        "self.table.repeats_header(text) or self._is_footer(text)",
-        "self._is_footer(text)",
+        "return line in self._anew or self.table.repeats_header(text)",
+        "return line in self._anew",
         "repeated headers are losses",
     ),
     text("tables/table_rows.py", "        self.stopped = True\n", "", "two tables are one"),

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from thermodata.schema.answers.diagnosis import Artefact, PutRight
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from thermodata.schema.answers.diagnosis import Artefact, PutRight
 
 
 def clocks_in_doubt(artefacts: Sequence[Artefact], put_right: PutRight | None) -> list[str]:
