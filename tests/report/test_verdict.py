@@ -454,6 +454,11 @@ def test_what_only_the_locked_tests_show_is_said_of_them(locked: float | None, s
     for candidates in ([], [one("sun", probability=0.35)]):
         text = verdict_sentence(found("unknown", candidates, rmse_um=1.5, locked_rmse_um=locked))
         assert ("missing on the locked tests, which an earlier claim left with 3.1" in text) is said
+    text = verdict_sentence(found("unknown", [one("sun", probability=0.03)], rmse_um=1.5, locked_rmse_um=locked))
+    told = (
+        "left on the locked tests, which an earlier claim left with 3.10 um, that nothing logged is likely to explain"
+    )
+    assert (told in text) is said
 
 
 @pytest.mark.parametrize(("locked", "said"), [(None, False), (0.9, False), (3.1, True)])

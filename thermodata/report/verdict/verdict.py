@@ -246,7 +246,7 @@ def _unclaimed(found: Diagnosis) -> str:
     # no more than models leave of a machine that lacks nothing, and nothing is plausible: then nobody knows
     as_much = "" if far or share >= PLAUSIBLE else as_of_nothing(found)
     if first is not None and share < UNLIKELY:
-        left = f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain"
+        left = f"something is left{f'{seen},' if seen else on_left_out(found)} that nothing logged is likely to explain"
         left += f", though {as_much}" if as_much else ""
         nearest = f"{_or_elsewhere(first)} comes nearest, probability {probability(share)}"
         open_still = could_be(found)
