@@ -27,7 +27,7 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     held = _logs_held(inventory)
     if inventory.campaign is None or not held:
         return
-    machines = {_machine_in(json.loads(inventory.campaign["spec"])), files.campaign.machine.id}
+    machines = {_machine_in(inventory.campaign), files.campaign.machine.id}
     stays = is_same_place(inventory.campaign["path"], path)
     if len(machines - {_UNKNOWN}) < 2 and stays:
         return
@@ -92,11 +92,13 @@ def _logs_found(files: CampaignFiles, test: Test) -> set[str]:
 
 def _machines(inventory: Inventory) -> str:
     rows = (row for own in inventory.rows["machine"].values() for row in own)
-    names = sorted({row["machine"] for row in rows}) or [_machine_in(json.loads(inventory.campaign["spec"]))]  # type: ignore[index]
+    names = sorted({row["machine"] for row in rows} or {_machine_in(inventory.campaign or {})})
     return f"machine{'s' if len(names) > 1 else ''} {with_count(names, _NAMED)}"
 
 
-def _machine_in(spec: dict[str, Any]) -> str:
+def _machine_in(campaign: Mapping[str, Any]) -> str:
+    """As the campaign file of a row of the store names it."""
+    spec = json.loads(campaign.get("spec") or "{}")
     return str((spec.get("machine") or {}).get("id"))
 
 
