@@ -60,6 +60,16 @@ def test_a_fit_of_another_version_is_no_defect(say: Say, made_campaign: Path, tm
     assert "newest_key" in said.err
 
 
+def test_a_campaign_of_another_version_is_no_defect(say: Say, made_campaign: Path, tmp_path: Path) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
+    with Store(store).write() as con:
+        con.execute("update campaign set spec = json_merge_patch(spec, '{\"newest_key\": 1}')")
+    said = say("--store", store, "trace", "small", "heat1")
+    assert said.code == 4
+    assert "campaign small" in said.err
+    assert "newest_key" in said.err
+
+
 @pytest.mark.parametrize("data", [True, False])
 def test_another_answer_of_earlier_rules_is_told(say: Say, made_campaign: Path, tmp_path: Path, data: bool) -> None:
     store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")

@@ -15,7 +15,7 @@ from thermodata.errors import StoreError
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.store import Store
 from thermodata.store.catalogue.ddl import FORMAT, TABLES
-from thermodata.store.catalogue.document import KEPT, by_another_version, read_document
+from thermodata.store.catalogue.document import KEPT, read_document
 from thermodata.store.catalogue.migrate import STEPS
 from thermodata.store.ingest.run import ingest
 
@@ -94,4 +94,3 @@ def test_a_document_with_other_keys_is_of_another_version() -> None:
         read_document(Confirmed, json.dumps(known | {"newest_key": 1}), "the answer")
     assert "newest_key" in str(refused.value)
     assert refused.value.exit_code == 4
-    assert by_another_version(ValueError("x")) is None

@@ -32,20 +32,13 @@ def main() -> int:
     task: Callable[..., dict[str, Any]] = TASKS[request["task"]]
     try:
         tell(result=task(Path(request["store"]), progress, **request["arguments"]))
+    except ThermodataError as error:
+        tell(error={k: getattr(error, k) for k in ("what", "where", "expected", "got", "hint")})
+        return error.exit_code
     except Exception as error:
-        known = error if isinstance(error, ThermodataError) else _by_another_version(error)
-        if known is None:
-            tell(error={"what": f"a defect in thermodata: {type(error).__name__}: {error}"})
-            return 1
-        tell(error={k: getattr(known, k) for k in ("what", "where", "expected", "got", "hint")})
-        return known.exit_code
+        tell(error={"what": f"a defect in thermodata: {type(error).__name__}: {error}"})
+        return 1
     return 0
-
-
-def _by_another_version(error: Exception) -> ThermodataError | None:
-    from thermodata.store.catalogue.document import by_another_version
-
-    return by_another_version(error)
 
 
 def _end_with_parent() -> None:

@@ -81,10 +81,6 @@ def known_failure(error: Exception) -> ThermodataError | None:
             got=error.strerror,
             hint=f"{way.todo}, and run it again",
         )
-    if type(error).__module__.startswith("pydantic"):
-        from thermodata.store.catalogue.document import by_another_version
-
-        return by_another_version(error)
     # by name: DuckDB is imported in the store and its views only, and only where it is needed
     if not type(error).__module__.lstrip("_").startswith("duckdb"):
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
@@ -17,16 +17,23 @@ from thermodata.store.catalogue.ddl import FORMAT
 KEPT: tuple[type[BaseModel], ...] = (Campaign, Model, FitResult, Diagnosis, Confirmed)
 """Which documents: where one changes, the store's format is to be raised."""
 
-_OF_ANOTHER_VERSION = {"extra_forbidden", "missing", "literal_error", "union_tag_invalid"}
 _M = TypeVar("_M", bound=BaseModel)
 
 
-def read_document(kind: type[_M], text: str, where: str) -> _M:
-    """A document as the store keeps it; StoreError where it has other keys than this program knows."""
+def read_document(kind: type[_M], text: str, where: str, context: dict[str, Any] | None = None) -> _M:
+    """A document as the store keeps it; StoreError where it has other keys than this program knows. context: of its
+    validation."""
     try:
-        return kind.model_validate_json(text)
+        return kind.model_validate_json(text, context=context)
     except ValidationError as error:
-        raise _of_another_version(error, where) from error
+        first = error.errors(include_input=False, include_url=False)[0]
+        raise StoreError(
+            f"the store holds a {error.title} that this program can't read: another version of thermodata wrote it",
+            where=where,
+            expected=f"the keys of store format {FORMAT}",
+            got=f"{'.'.join(map(str, first['loc']))}: {first['msg']}",
+            hint="use the version that wrote it, or a newer one; what can be made again is made again by thermodata fit",
+        ) from error
 
 
 def readable(kind: type[_M], text: str) -> _M | None:
@@ -35,23 +42,3 @@ def readable(kind: type[_M], text: str) -> _M | None:
         return kind.model_validate_json(text)
     except ValidationError:
         return None
-
-
-def by_another_version(error: Exception) -> StoreError | None:
-    """The same of a document whose reader did not say so; None for any other error."""
-    if not isinstance(error, ValidationError) or error.title not in {kind.__name__ for kind in KEPT}:
-        return None
-    if not {one["type"] for one in error.errors()} <= _OF_ANOTHER_VERSION:
-        return None
-    return _of_another_version(error, "the store")
-
-
-def _of_another_version(error: ValidationError, where: str) -> StoreError:
-    first = error.errors(include_input=False, include_url=False)[0]
-    return StoreError(
-        f"the store holds a {error.title} that this program can't read: another version of thermodata wrote it",
-        where=where,
-        expected=f"the keys of store format {FORMAT}",
-        got=f"{'.'.join(map(str, first['loc']))}: {first['msg']}",
-        hint="use the version that wrote it, or a newer one; what can be made again is made again by thermodata fit",
-    )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.schema.files.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.document import read_document
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, span
 from thermodata.store.tidy.clock.undated import bases
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 def read_campaign(con: duckdb.DuckDBPyConnection, campaign: str) -> Campaign:
     """The campaign file as it was ingested."""
     rows = fetch(con, "select spec from campaign where campaign = ?", [campaign])
-    return Campaign.model_validate_json(rows[0]["spec"], context=STORED)
+    return read_document(Campaign, rows[0]["spec"], f"campaign {campaign}", STORED)
 
 
 def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test: str) -> TestSeries:
