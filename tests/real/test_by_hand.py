@@ -2,30 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
 
+from . import by_hand
+
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "real_spindle.md"
-
-
-def _by_hand() -> ModuleType:
-    path = Path(__file__).with_name("by_hand.py")
-    spec = importlib.util.spec_from_file_location("thermodata_real_by_hand", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-by_hand = _by_hand()
 
 
 def test_a_lag_comes_to_rest_at_its_driver_and_reaches_63_percent_after_its_time_constant() -> None:

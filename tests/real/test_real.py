@@ -2,30 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
+from . import story
+
 PAGE = Path(__file__).parents[2] / "docs" / "real_spindle.md"
-
-
-def _story() -> ModuleType:
-    # shared with the script beside it, which no package holds
-    path = Path(__file__).with_name("story.py")
-    spec = importlib.util.spec_from_file_location("thermodata_real_story", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-story = _story()
 
 
 def bench(folder: Path, name: str) -> Any:

@@ -99,7 +99,7 @@ class _Forward:
             self._at = self._stream.seek(to)
             return to
         while self._at < to and self._read(min(to - self._at, _PART)):
-            pass
+            pass  # unpacked, counted, and let go
         return self._at
 
     def must_end(self) -> None:

@@ -153,7 +153,7 @@ def _notes_of_counts(table: Table, source: Source) -> list[str]:
     starts: dict[str, None] = {}
     for some in (table.sample.head[table.layout.first :], table.sample.rest):
         for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)):
-            pass
+            pass  # what it met on the way stands in the reader
         starts.update({begin.text: None for begin in reader.anew})
     notes = [f"times count anew from the start in a further head: '{text}'" for text in starts]
     timed = [(c.timed.group.time, c.counter) for c in reader.clocks]

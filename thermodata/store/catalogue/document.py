@@ -32,7 +32,7 @@ def read_document(kind: type[_M], text: str, where: str, context: dict[str, Any]
             where=where,
             expected=f"the keys of store format {FORMAT}",
             got=f"{'.'.join(map(str, first['loc']))}: {first['msg']}",
-            hint="use the version that wrote it, or a newer one; what can be made again is made again by thermodata fit",
+            hint="use the version that wrote it, or a newer one; a model is made again by thermodata fit",
         ) from error
 
 
