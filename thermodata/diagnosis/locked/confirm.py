@@ -143,7 +143,7 @@ class Fits:
     ) -> None:
         """index: of the response among the model's responses. base: the fit without any candidate."""
         self.spec, self.index, self.data = on_all_open(spec, tests, locked), index, data
-        self.locked = locked
+        self.tests, self.locked = tests, locked
         self._kept = {frozenset[str](): base.responses[index]}
 
     def foretold(

@@ -1,7 +1,7 @@
 """The lock is opened for what the open tests claim: what the locked tests bear out of it, and what is asked again.
 
-Twice the answer is asked anew: without locked tests in which a probe is turned, and, where all that was claimed is
-refused, without what was, which may have stood in the place of what is there.
+The answer is asked anew without locked tests in which a probe is turned; without what was refused, where that is all
+that was claimed, for it may have stood in the place of what is there; and without several heats of one body.
 """
 
 from __future__ import annotations
@@ -12,10 +12,11 @@ from typing import Protocol
 
 from thermodata.diagnosis.claims.rules import may_be_claimed
 from thermodata.diagnosis.locked.confirm import Fits
+from thermodata.diagnosis.locked.one_body import one_body
 from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import as_artefacts, turned_locked
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, OneBody
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.errors import ThermodataError
 from thermodata.schema.answers.diagnosis import Artefact
@@ -73,6 +74,10 @@ def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: 
         second, _, anew = opened(frozenset(c for j in judgement.refused for c in j.scored.candidate.channels))
         if anew.claims and all(j.scored.looked is not None and j.scored.looked.at_second_look for j in anew.claims):
             found, judgement = second, replace(anew, refused=(*judgement.refused, *anew.refused))
+    elif (one := _one_body(judgement, found, fits)) is not None:
+        second, _, anew = opened(frozenset(c for j in one.heats for c in j.scored.candidate.channels))
+        if any(j.scored.candidate.id == one.body for j in anew.chosen):
+            found, judgement = second, replace(anew, one_body=one)
     return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looks))
 
 
@@ -94,6 +99,10 @@ def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked
     return kept_where_they_hold(
         judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit
     )
+
+
+def _one_body(judgement: Judgement, found: Investigation, fits: Fits) -> OneBody | None:
+    return None if found.selection is None else one_body(judgement.claims, found.selection.first.ranked, fits)
 
 
 def spoilt(fits: Fits, some: Sequence[Judged], place: int, floor: float) -> Foretold | None:

@@ -40,6 +40,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
     first = [*judgement.claims, *judgement.refused, *refinements]
     order: list[Row] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
+    rest += judgement.heats
     others: list[Row] = [(j.scored, j) for j in rest]
     if investigation.selection is not None:
         found = [*investigation.selection.dropped, *investigation.selection.first.ranked]

@@ -45,11 +45,11 @@ def causes(rows: Sequence[Row]) -> list[Row]:
 
 
 def is_a_cause(s: Scored, member: Judged | None) -> bool:
-    """Whether it is none that refines the model. Of what was not selected nobody asked that, so that a mode of what the
-    model has, by its kin, is none."""
+    """Whether it is none that refines the model, nor only warms a body that is one. Of what was not selected nobody
+    asked that, so that a mode of what the model has, by its kin, is none."""
     if s.candidate.within:
         return False
-    return s.candidate.kin not in ("same", "heat") if member is None else member.refines is None
+    return s.candidate.kin not in ("same", "heat") if member is None else not (member.refines or member.warms)
 
 
 def goes_by_name(s: Scored, sound: Sequence[Scored]) -> Scored | None:

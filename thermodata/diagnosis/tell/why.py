@@ -14,6 +14,7 @@ from thermodata.diagnosis.claims.refines import not_advised
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell.of_locked import said_by_locked
+from thermodata.diagnosis.tell.of_one_body import in_place_of_heats, only_warms
 from thermodata.diagnosis.tell.stated import is_a_cause, is_judged_beside
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -41,7 +42,7 @@ def judged_beside(s: Scored, member: Judged | None, investigation: Investigation
     """Ids of what is in the model too where a candidate is judged, as the answer names them."""
     if s.as_modelled:
         return []
-    if member is None:
+    if member is None or member.warms:
         return list(s.others)
     # what is offered beside the model as it stands stands beside no other candidate
     among_them = [j for j in judgement.judged if j.alone is not member.alone and not j.scored.as_modelled]
@@ -109,6 +110,7 @@ def _claimed(
         said.append(
             f"; taken by the locked tests in place of {member.in_place_of}, which the open ones can't tell it from"
         )
+    said.append(in_place_of_heats(s, judgement, unit))
     if held is not None:
         said += [f"; {gain}" for gain in held.implausible.get(s.candidate.id, ())]
     said.append(where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks]))
@@ -120,6 +122,8 @@ def _not_claimed(
     s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement, by_name: Scored | None
 ) -> str:
     """Why the open tests claim it not. by_name: as in `why`."""
+    if member is not None and member.warms and judgement.one_body is not None:
+        return only_warms(s, judgement.one_body, investigation.problem.unit)
     failed = failed_rules(s, investigation.measure, investigation.problem.unit)
     # a probability that is stated of no candidate is no reason either
     if not failed and by_name is not None:
@@ -134,7 +138,7 @@ def _not_claimed(
     if failed:
         return "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
     if improbable:
-        return improbable[0]
+        return improbable[0] + in_place_of_heats(s, judgement, investigation.problem.unit)
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
     if not beside and all(_left_out(s)[1] < _left_out(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
