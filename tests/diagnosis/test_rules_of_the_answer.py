@@ -136,6 +136,8 @@ class TestAnswer:
         )
 
         class Fits:
+            locked = ()  # by which no body takes a place
+
             def __init__(self, *given: Any) -> None:
                 self.given = given
 
