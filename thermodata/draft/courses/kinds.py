@@ -12,10 +12,10 @@ from thermodata.draft.courses.moved import Moved, moved_in
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.times.named_days import named_start
 from thermodata.draft.words.axis import axis_of
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.roles import said_by_name
 from thermodata.draft.words.said_by_names import Said, said_by
-from thermodata.draft.words.vocabulary import says
 
 _KINDS: tuple[tuple[str, str], ...] = (
     (

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.table import SUFFIXES, grids_of, is_called_table, there
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
-from thermodata.draft.words.vocabulary import says
 from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.clock_pattern import says_the_hour

@@ -12,8 +12,9 @@ from typing import Any
 from thermodata.archive.unpacked import unpacked
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.words.filenames import normal
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import plain, words
-from thermodata.draft.words.vocabulary import quantities_in, says
+from thermodata.draft.words.vocabulary import quantities_in
 from thermodata.errors import FormatError, ThermodataError
 from thermodata.reader.text import decode, split_unit
 from thermodata.workbook_check import check_size

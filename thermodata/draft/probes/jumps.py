@@ -14,8 +14,8 @@ from thermodata.calibration.jump.plateaus import Step, find_steps
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
-from thermodata.draft.words.vocabulary import says
 from thermodata.plugin import Float1D
 
 NAMED = (

@@ -6,8 +6,9 @@ from __future__ import annotations
 import re
 
 from thermodata.draft.signals import units
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
-from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
+from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in
 from thermodata.reader.text import split_unit
 from thermodata.schema.units.quantity import is_unit, normal_unit
 from thermodata.schema.units.scale import scaled_unit

@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.words.axis import axis_of
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.place import described_place, place_of
 from thermodata.draft.words.place_rules import Place
-from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, says
+from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in
 
 _NEVER_DIFFERENCES = ("feed", "position", "rotational_speed", "torque", "current", "pressure")
 _NEEDS_PLACE = (

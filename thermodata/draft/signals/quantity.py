@@ -10,7 +10,8 @@ import numpy as np
 from thermodata.draft.signals import units
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
+from thermodata.draft.words.listed import says
+from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
 from thermodata.reader.times.time_units import found_epoch
 from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.units.spelling import bare_unit, is_of_humidity

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from thermodata.draft.words.axis import axis_of
+from thermodata.draft.words.listed import beyond, says
 from thermodata.draft.words.place_rules import RULES, Place
 from thermodata.draft.words.vocabulary import (
     DIFFERENCE,
@@ -15,9 +16,7 @@ from thermodata.draft.words.vocabulary import (
     PLACE_WORDS,
     QUANTITY_WORDS,
     SETPOINT,
-    beyond,
     places_in,
-    says,
 )
 
 # a control counts its spindles; a sensor that is counted so has a temperature

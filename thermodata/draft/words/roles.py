@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
-from thermodata.draft.words.vocabulary import says
 
 _IN_NAMES: tuple[tuple[str, str], ...] = (
     ("locked", "^locked secret geheim blind. ^zamcen"),

@@ -8,11 +8,10 @@ looked for anywhere. Words that would catch others by chance are therefore writt
 
 from __future__ import annotations
 
-import re
 from functools import lru_cache
 
 from thermodata.draft.words.languages import in_all_languages
-from thermodata.draft.words.naming import without_marks
+from thermodata.draft.words.listed import says
 
 _QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
@@ -247,31 +246,6 @@ DIFFERENCE = in_all_languages(
     "diff. difference differenz rozdil. rozdilu. delta~t deltat. dt. gradient. spread. 温差 温升 "
     "ubertemp temperature~rise rise.",
 )
-
-
-@lru_cache(maxsize=256)
-def pattern(listed: str) -> re.Pattern[str]:
-    """The words of one line of the vocabulary as a regular expression over words()."""
-    parts = []
-    for word in listed.split():
-        whole, first = word.endswith("."), word.startswith("^")
-        core = without_marks(word.strip("^.").replace(".~", "~").replace("~", " "))
-        core = core if "[" in core else re.escape(core).replace(r"\ ", r"\s?")
-        phrase = "~" in word and not first
-        left = r"(?<!\S)" if whole or first or phrase else ""
-        parts.append(left + core + (r"(?!\S)" if whole or (phrase and word[-1] != "~") else ""))
-    return re.compile("|".join(parts))
-
-
-def says(listed: str, text: str) -> bool:
-    """Whether a name (as words()) holds one of the listed words."""
-    return pattern(listed).search(text) is not None
-
-
-def beyond(listed: str, text: str) -> tuple[str, ...]:
-    """The words of a name (as words()) that none of the listed ones touches."""
-    found = [m.span() for m in pattern(listed).finditer(text)]
-    return tuple(m[0] for m in re.finditer(r"\S+", text) if not any(a < m.end() and m.start() < b for a, b in found))
 
 
 @lru_cache(maxsize=20_000)
