@@ -106,6 +106,40 @@ def test_help_imports_nothing_heavy() -> None:
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr.strip() == "[]"
 
 
+@pytest.mark.parametrize(
+    "words",
+    [["tests"], ["channels"], ["sql", "select campaign, test, rows, step_s, complete from source"]],
+    ids=lambda words: words[0],
+)
+def test_a_look_at_the_catalogue_loads_no_schema_of_files_and_no_arrow(tmp_path: Path, words: list[str]) -> None:
+    Store(tmp_path / "store", create=True)
+    code = (
+        f"import sys; from thermodata.cli import main; main({['--store', str(tmp_path / 'store'), *words]}); "
+        "print([m for m in ('pyarrow', 'pandas', 'pydantic', 'scipy') if m in sys.modules], file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "select x, -x, x / 3, x > 1, x::varchar || 'ä', null::varchar, x::usmallint, x::tinyint from range(3) r(x)",
+        "select 'nan'::double, 'inf'::double, 1e300, true, 9223372036854775807",
+        "select date '2026-03-02', timestamp '2026-03-02 08:00:00', [1, 2], 1.50::decimal(9, 2)",
+        "select 1 where false",
+    ],
+)
+def test_a_table_is_the_same_with_and_without_arrow(
+    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, query: str
+) -> None:
+    Store(tmp_path / "store", create=True)
+    shown = say("--store", tmp_path / "store", "sql", query)
+    assert shown.code == 0, shown.err
+    monkeypatch.setattr("thermodata.cli.look.query._ALIKE", set())
+    assert say("--store", tmp_path / "store", "sql", query) == shown
+
+
 def test_an_unknown_command_names_the_nearest(say: Say) -> None:
     said = say("diagnos", "x")
     assert (said.code, said.out) == (2, "")

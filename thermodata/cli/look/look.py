@@ -46,6 +46,14 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
     return found
 
 
+def _refuse_unknown(role: str | None, kind: str | None) -> None:
+    from thermodata.schema.files.campaign import Role, TestKind  # a third of the time that a list of tests takes
+
+    for what, word, known in (("role", role, get_args(Role)), ("kind", kind, get_args(TestKind))):
+        if word and word not in known:
+            raise unknown_name(what, word, known, where=f"--{what}")
+
+
 @command("tests")
 @campaign_option
 @click.option("--role", help="Only of this role.")
@@ -53,11 +61,8 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 @click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
 def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
-    from thermodata.schema.files.campaign import Role, TestKind
-
-    for what, word, known in (("role", role, get_args(Role)), ("kind", kind, get_args(TestKind))):
-        if word and word not in known:
-            raise unknown_name(what, word, known, where=f"--{what}")
+    if role or kind:
+        _refuse_unknown(role, kind)
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
     if role or kind or find:
         asked = Asked(find or "", campaign or "", role or "", kind or "", per_page=max(1, len(rows)))

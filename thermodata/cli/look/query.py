@@ -18,6 +18,8 @@ from thermodata.errors import UsageError
 from thermodata.report.text.table import table
 
 _CHUNK = 10_000
+# whose values are the same in Python whether Arrow gives them or not; a time's nanoseconds come by Arrow only
+_ALIKE = {"BOOLEAN", "TINYINT", "SMALLINT", "INTEGER", "BIGINT", "USMALLINT", "UINTEGER", "DOUBLE", "VARCHAR"}
 
 
 @command("sql")
@@ -62,7 +64,8 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
     elif session.as_json:
         _write_json(columns, batches(relation))
     else:
-        found = list(islice(chain.from_iterable(batches(relation.limit(rows + 1))), rows + 1))
+        first = relation.limit(rows + 1)
+        found = list(islice(chain.from_iterable(interruptible(_small(first), relation.interrupt)), rows + 1))
         click.echo(
             table(
                 [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
@@ -71,6 +74,15 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
         )  # by position: names may repeat
         if len(found) > rows:
             session.say(f"the first {rows} rows; --rows N shows more, --csv all")
+
+
+def _small(relation: Any) -> Iterator[list[tuple[Any, ...]]]:
+    """The rows of a relation of few: without Arrow, which takes longer to load than they to be found, where it would
+    give them alike."""
+    if all(str(kind) in _ALIKE for kind in relation.types):
+        yield relation.fetchall()
+    else:
+        yield from _batches(relation)
 
 
 def _batches(relation: Any) -> Iterator[list[tuple[Any, ...]]]:
