@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path, PurePosixPath
 
-from thermodata.archive.members import archive_of, size_of
+from thermodata.archive.members import archive_of, listed, size_of
 from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError
 from thermodata.reader.files.rotated import as_unpacked
@@ -50,6 +50,13 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         for path in (p for p in rest if p not in found):
             whole[-1].add(path)
     return found
+
+
+def cut_archives(folder: Path, paths: Iterable[PurePosixPath]) -> list[tuple[str, str]]:
+    """(archive, what is lost of it), of those that end behind a file without an end mark."""
+    inside = (archive_of(folder / path) for path in paths)
+    archives = dict.fromkeys(found[0] for found in inside if found is not None)
+    return [(a.relative_to(folder).as_posix(), lost) for a in archives if (lost := listed(a).lost) is not None]
 
 
 class _Known:
