@@ -174,6 +174,24 @@ def test_a_log_that_was_packed_twice_is_one(tmp_path: Path) -> None:
         assert {p for p, why in draft.not_used if "a copy of" in why} == copies
 
 
+def test_what_two_archives_share_in_part_is_told_and_read_once(tmp_path: Path) -> None:
+    texts = {f"heat{k}.csv": log(k) for k in (1, 2, 3, 4)}
+    zipped(tmp_path / "day.zip", {n: texts[n] for n in ("heat3.csv", "heat4.csv")})
+    zipped(tmp_path / "week.zip", {n: texts[n] for n in ("heat1.csv", "heat2.csv", "heat3.csv")})
+    draft = draft_files(tmp_path).draft
+    assert sorted(t.id for t in draft.tests) == ["heat1", "heat2", "heat3", "heat4"]
+    assert {p for p, why in draft.not_used if "a copy of" in why} == {"day.zip/heat3.csv"}
+    summary = ingest(Store(tmp_path / "store", create=True), tmp_path / "campaign.yaml")
+    assert (summary.read, summary.losses) == (4, [])
+    assert not any("hold the same recording" in note for note in summary.notes)
+
+
+def test_archives_with_another_file_of_one_name_share_none(tmp_path: Path) -> None:
+    zipped(tmp_path / "one.zip", {"probe1.csv": log(1), "probe2.csv": log(2), "a.csv": log(5)})
+    zipped(tmp_path / "two.zip", {"probe1.csv": log(1), "probe2.csv": log(3), "b.csv": log(6)})
+    assert not [p for p, why in draft_files(tmp_path).draft.not_used if "a copy of" in why]
+
+
 def test_a_log_that_two_archives_of_other_tests_share_is_one_of_each(tmp_path: Path) -> None:
     told = "time [s],n [rpm]\n" + "".join(f"{60 * i},{3000 if i > 9 else 0}\n" for i in range(60))
     for k in (1, 2):
