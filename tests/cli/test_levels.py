@@ -37,3 +37,15 @@ def test_a_table_for_a_paper_is_that_table_alone(say: Callable[..., Said], campa
 def test_a_prediction_says_that_all_count_from_their_first_samples(say: Callable[..., Said], campaign: Path) -> None:
     told = say("--store", campaign / "thermodata.store", "predict", "baseline", "campaign:small").out
     assert "level: the error of every test counts from its first samples" in told
+
+
+@pytest.mark.parametrize(
+    "words", [["compare", "baseline"], ["compare", "baseline", "baseline"], ["history", "baseline"]]
+)
+def test_on_a_narrow_screen_no_line_is_wider_than_it(
+    say: Callable[..., Said], campaign: Path, words: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    told = say("--store", campaign / "thermodata.store", *words).out.splitlines()
+    assert max(map(len, told)) <= 60
+    assert "level: the error of a calibration test is about a level" in told

@@ -174,6 +174,24 @@ def test_a_log_that_was_packed_twice_is_one(tmp_path: Path) -> None:
         assert {p for p, why in draft.not_used if "a copy of" in why} == copies
 
 
+def test_what_two_archives_share_in_part_is_told_and_read_once(tmp_path: Path) -> None:
+    texts = {f"heat{k}.csv": log(k) for k in (1, 2, 3, 4)}
+    zipped(tmp_path / "day.zip", {n: texts[n] for n in ("heat3.csv", "heat4.csv")})
+    zipped(tmp_path / "week.zip", {n: texts[n] for n in ("heat1.csv", "heat2.csv", "heat3.csv")})
+    draft = draft_files(tmp_path).draft
+    assert sorted(t.id for t in draft.tests) == ["heat1", "heat2", "heat3", "heat4"]
+    assert {p for p, why in draft.not_used if "a copy of" in why} == {"day.zip/heat3.csv"}
+    summary = ingest(Store(tmp_path / "store", create=True), tmp_path / "campaign.yaml")
+    assert (summary.read, summary.losses) == (4, [])
+    assert not any("hold the same recording" in note for note in summary.notes)
+
+
+def test_archives_with_another_file_of_one_name_share_none(tmp_path: Path) -> None:
+    zipped(tmp_path / "one.zip", {"probe1.csv": log(1), "probe2.csv": log(2), "a.csv": log(5)})
+    zipped(tmp_path / "two.zip", {"probe1.csv": log(1), "probe2.csv": log(3), "b.csv": log(6)})
+    assert not [p for p, why in draft_files(tmp_path).draft.not_used if "a copy of" in why]
+
+
 def test_a_log_that_two_archives_of_other_tests_share_is_one_of_each(tmp_path: Path) -> None:
     told = "time [s],n [rpm]\n" + "".join(f"{60 * i},{3000 if i > 9 else 0}\n" for i in range(60))
     for k in (1, 2):
@@ -225,7 +243,7 @@ BAD: dict[str, tuple[Callable[[Path], Path], str]] = {
     "tar leads out": (lambda p: tarred(p / "a.tar.gz", {"../heat1.csv": log(1)}), "its name leads elsewhere"),
     "tar link": (lambda p: linked(p / "a.tgz"), "it is a link, or no plain file"),
     "tar bomb": (lambda p: tarred(p / "a.tgz", {"heat1.csv": "0" * 4_000_000}), "unpacks to more than logs do"),
-    "tar cut": (lambda p: cut(tarred(p / "a.tar.gz", {"heat1.csv": log(1)})), "an archive that can't be read"),
+    "tar cut": (lambda p: written(p / "a.tar", entry("heat1.csv")[:500]), "an archive that can't be read"),
     "tar of a zip": (
         lambda p: tarred(p / "a.tar", {"b.csv.gz": gzip.compress(log(1).encode())}),
         "packed more than once",
@@ -259,6 +277,14 @@ def tarred(path: Path, files: dict[str, str | bytes]) -> Path:
             member.size = len(data)
             archive.addfile(member, io.BytesIO(data))
     return path
+
+
+def entry(name: str) -> bytes:
+    """A log as a TAR archive has it, without an end mark."""
+    data = log(1).encode()
+    member = tarfile.TarInfo(name)
+    member.size = len(data)
+    return member.tobuf(tarfile.GNU_FORMAT) + data + bytes(-len(data) % 512)
 
 
 def linked(path: Path) -> Path:
@@ -386,3 +412,22 @@ def test_a_packed_log_that_is_cut_off_is_read_to_its_cut_as_one_that_is_not_pack
         found = dict(con.execute("select source_path, rows from file where layer = 'raw'").fetchall())
     assert found[f"heat2.csv.{end}"] == 60_000
     assert 30_000 < found[f"heat1.csv.{end}"] < 60_000
+
+
+@pytest.mark.parametrize("within", [True, False])
+def test_an_archive_without_an_end_mark_is_read_to_its_cut(tmp_path: Path, say: Say, within: bool) -> None:
+    """As of a logger that was switched off."""
+    data = b"".join(entry(f"heat{k}.csv") for k in range(3))
+    lab = written(tmp_path / "lab/day.tar", data[: -700 if within else len(data)]).parent
+    assert say("init", lab).code == 0
+    text = (lab / "campaign.yaml").read_text()
+    archive = "day.tar: the archive is cut off behind 'heat2.csv'"
+    said = "day.tar/heat2.csv: the packed file is cut off" if within else archive
+    assert f"# damaged: {said}" in text
+    store = Store(tmp_path / "store", create=True)
+    summary = ingest(store, lab / "campaign.yaml")
+    assert summary.files == 3
+    (told,) = [loss for loss in summary.losses if "cut off" in loss["reason"]]
+    assert told["file"] == ("day.tar/heat2.csv" if within else "day.tar")
+    written(lab / "day.tar", data + bytes(1024))
+    assert ingest(store, lab / "campaign.yaml").losses == []

@@ -29,3 +29,11 @@ def test_the_unit_of_a_feed(name: str, unit: str | None, properties: dict[str, s
     standard = [q for q in found.questions if q.startswith("unit: mm/s, as MTConnect")]
     assert len(standard) == (known == "mm/s")
     assert any("m/min or mm/min?" in q for q in found.questions) == (known is None)
+
+
+def test_what_an_adapter_sends_is_asked_with_the_unit_of_the_standard() -> None:
+    found = guess_of(Signal("path_feedrate", "s", None, properties={"protocol": "SHDR"}), FEED)
+    assert found.unit is None
+    (asked,) = [q for q in found.questions if q.startswith("unit: ")]
+    assert asked.startswith("unit: m/min or mm/min, or mm/s? an adapter may send another than MTConnect's: nativeUnits")
+    assert asked.endswith("to 24)")

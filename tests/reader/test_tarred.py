@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import lzma
 import os
 import tarfile
@@ -13,7 +14,7 @@ import pytest
 
 from thermodata.archive.members import listed
 from thermodata.archive.too_much import MOST_FILES
-from thermodata.archive.unpacked import forget_unpacked, held
+from thermodata.archive.unpacked import forget_unpacked, held, is_cut
 from thermodata.errors import FormatError
 
 LOG = b"time [s],T_bed [degC]\n" + b"".join(b"%d,%.1f\n" % (i, 20 + i / 10) for i in range(60))
@@ -53,9 +54,8 @@ THREE = b"".join(entry(f"heat{k}.csv") for k in range(3))
 STEP = len(THREE) // 3
 DAMAGED: dict[str, tuple[bytes, str]] = {
     "a bit of a header": (flipped(THREE, STEP + 160) + END, f"the header at byte {STEP} is damaged"),
-    "cut within a header": (THREE[: STEP + 200], "before its end mark"),
-    "cut before a header": (THREE[:STEP], "before its end mark"),
-    "cut within a file": (THREE[: STEP + 700], "before its end mark"),
+    "cut within its first header": (THREE[:200], "before its end mark"),
+    "cut behind its first header": (THREE[:512], "before its end mark"),
     "two archives": (entry("a.csv") + END + entry("b.csv") + END, "more stands behind its end mark"),
     "headers of headers": (
         entry("././@LongLink", b"a.csv\0", b"L") * 3000 + THREE + END,
@@ -73,6 +73,47 @@ def test_an_archive_that_would_lose_files_without_a_word_is_refused(
     with pytest.raises(FormatError, match="an archive that can't be read") as refused:
         listed(written(tmp_path / ("a.tar" if pack is bytes else "a.tar.xz"), pack(data)))
     assert why in (refused.value.got or "")
+
+
+CUTS = {
+    "within a header": (STEP + 200, None),
+    "before a header": (STEP, None),
+    "behind a header": (STEP + 512, None),
+    "within a file": (STEP + 700, "heat1.csv"),
+}
+
+
+@pytest.mark.parametrize("where", CUTS)
+@pytest.mark.parametrize("pack", [bytes, lzma.compress, gzip.compress])
+def test_an_archive_that_is_cut_off_is_read_to_its_cut(
+    tmp_path: Path, where: str, pack: Callable[[bytes], bytes]
+) -> None:
+    at, cut = CUTS[where]
+    archive = written(tmp_path / ("a.tar" if pack is bytes else "a.tar.xz"), pack(THREE[:at]))
+    found = listed(archive)
+    assert found.names == (("heat0.csv", "heat1.csv") if cut else ("heat0.csv",))
+    assert found.cut == cut
+    assert (found.lost is None) == (cut is not None)
+    assert found.lost is None or "behind 'heat0.csv'" in found.lost
+    for name in found.names:
+        with held(archive / name) as real:
+            assert real.read_bytes() == (LOG[:188] if name == cut else LOG)
+        assert is_cut(archive / name) == (name == cut)
+
+
+@pytest.mark.parametrize("suffix", ["gz", "xz"])
+def test_what_a_cut_packer_gave_of_an_archive_is_read(tmp_path: Path, suffix: str) -> None:
+    pack = gzip.compress if suffix == "gz" else lzma.compress
+    rows = b"".join(b"%d,%d\n" % (i, i * 7919 % 10007) for i in range(40_000))
+    data = pack(entry("heat0.csv") + entry("heat1.csv", rows) + END)
+    archive = written(tmp_path / f"a.tar.{suffix}", data[: len(data) * 2 // 3])
+    found = listed(archive)
+    assert found.names == ("heat0.csv", "heat1.csv")
+    assert found.cut == "heat1.csv"
+    with held(archive / "heat1.csv") as real:
+        got = real.read_bytes()
+    assert len(got) == found.sizes["heat1.csv"] > 10_000
+    assert rows.startswith(got)
 
 
 @pytest.mark.parametrize("end", [512, 1024, 10240])

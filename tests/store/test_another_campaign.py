@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from store_fakes import CAMPAIGN, daq, write_campaign, write_log
 
@@ -51,6 +52,40 @@ def test_no_test_in_common_is_another_campaign_of_the_same_machine_too(filled: S
     write_log(folder / "raw/june_a.npz", daq(seed=70))
     with pytest.raises(UsageError, match="another campaign"):
         ingest(filled, write_campaign(folder, text, logs=False))
+
+
+def test_the_same_tests_of_another_month_are_another_campaign_of_the_same_machine(
+    filled: Store, tmp_path: Path
+) -> None:
+    """A template that was copied: T1 to T5 of each winter."""
+    campaign, before = winter(tmp_path / "winter", days=60), held(filled)
+    with pytest.raises(UsageError, match="the tests one, two with other logs") as no:
+        ingest(filled, campaign)
+    assert "'shop-2'" in str(no.value)
+    assert held(filled) == before
+    assert ingest(filled, campaign, in_its_place=True).read == 4
+
+
+def test_logs_without_dates_that_are_all_other_ones_are_of_another_campaign(store: Store, tmp_path: Path) -> None:
+    ingest(store, winter(tmp_path / "autumn", days=0, clock="relative"))
+    with pytest.raises(UsageError, match="of other days or of none"):
+        ingest(store, winter(tmp_path / "winter", days=0, seed=7, clock="relative"))
+
+
+def test_exported_anew_and_moved_it_is_the_same_as_long_as_the_days_are(filled: Store, tmp_path: Path) -> None:
+    assert ingest(filled, winter(tmp_path / "archive", days=0.3)).read == 4
+
+
+def winter(folder: Path, days: float, seed: int = 0, **meta: str) -> Path:
+    """The same machine and the same names, recorded so many days later."""
+    path = write_campaign(folder)
+    for i, log in enumerate(sorted(folder.glob("raw/*.npz"))):
+        nc = log.name.endswith(".nc.npz")
+        streams = daq(130, seed=90 + seed + i, start_s=86_400 * days)
+        t_ns = streams["main"]["t_ns"]
+        values = {"n": np.full(130, 3000.0 + i + seed), "msg": np.full(130, "RUN")}
+        write_log(log, {"nc": {"t_ns": t_ns, **values}} if nc else streams, **meta)
+    return path
 
 
 def test_it_takes_the_place_where_that_is_said(filled: Store, tmp_path: Path) -> None:

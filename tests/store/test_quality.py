@@ -51,6 +51,23 @@ def flags(store: Store, channel: str) -> list[tuple[str, int]]:
         ).fetchall()
 
 
+def test_what_came_before_a_window_is_told_of_one_test_as_it_is_counted(store: Store, tmp_path: Path) -> None:
+    """One recording in two tests, whose spikes are the history of the second."""
+    tests = """tests:
+  - {id: early, kind: spindle, files: {daq: raw/day.npz}, window: [0 s, 6000 s], history: recording}
+  - {id: late, kind: spindle, files: {daq: raw/day.npz}, window: [6000 s, 17990 s], history: recording}
+"""
+    path = write_campaign(tmp_path / "lab", DAYS[: DAYS.index("tests:")] + tests, logs=False)
+    log = day(1)
+    for at in (50, 120, 300):
+        log["main"]["T1"][at] += 15.0
+    write_log(path.parent / "raw/day.npz", log)
+    assert ingest(store, path).flags == {"spike": 3}
+    with store.reader() as con:
+        told = con.execute("select test, flag, sum(n) from quality group by all order by 1").fetchall()
+    assert told == [("early", "spike", 2), ("late", "spike", 1)]
+
+
 def test_a_sensor_that_failed_between_two_days_is_flagged_from_then_on(store: Store, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab", DAYS, logs=False)
     for number in (1, 2):

@@ -88,6 +88,25 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     assert Store(tmp_path / "new" / "thermodata.store").generation > 0
 
 
+def test_a_draft_that_got_another_id_than_its_folder_says_so(made_lab: Path, tmp_path: Path) -> None:
+    import shutil
+
+    for lab in ("hall", "yard"):
+        shutil.copytree(made_lab / "raw", tmp_path / lab / "new" / "raw")
+    client, desk = client_of(tmp_path, write=True)
+    client = Client(client.app, [*client.headers, *write_headers(desk)])
+    said = []
+    for lab in ("hall", "yard"):
+        _, onward = finished(client, client.post("/task/draft", {"folder": str(tmp_path / lab / "new")}).text)
+        assert onward is not None
+        said.append(client.get(onward).text)
+        finished(client, client.post("/task/ingest", {"campaign": str(tmp_path / lab / "new/campaign.yaml")}).text)
+    assert "Its id is" not in said[0]
+    assert "Its id is <b>yard-new</b>: the store holds another campaign 'new'" in said[1]
+    assert str(tmp_path / "hall/new/campaign.yaml") in said[1]
+    assert "Its id is" not in client.get(f"/start?file={tmp_path / 'hall/new/campaign.yaml'}").text
+
+
 def test_answers_stay_inside_the_folder(writer: Client, tmp_path: Path) -> None:
     for url in ("/start/preview", "/start/write"):
         answer = writer.post(url, {"file": "/etc/hosts.yaml", "answer.machine.id": "x"})

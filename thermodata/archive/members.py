@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from thermodata.archive.packed_by import is_tar, packed_by
 from thermodata.archive.packers import OPEN
 from thermodata.archive.regular import opened
-from thermodata.archive.tarred import Member, tarred
+from thermodata.archive.tarred import Member, Tarred, tarred
 from thermodata.archive.too_much import MOST_FILES, more_than_logs, most_of
 from thermodata.errors import FormatError
 
@@ -42,13 +42,16 @@ _WRONG = (
 @dataclass(frozen=True, slots=True)
 class Listed:
     """What an archive holds. sizes: name -> bytes, unpacked; refused: name -> why it is not read; stored: name -> as
-    the archive has it; at: name -> where it begins in a TAR archive, unpacked."""
+    the archive has it; at: name -> where it begins in a TAR archive, unpacked. cut: the name of a file within which the
+    archive ends; ended: whether nothing that stood behind the last one is lost."""
 
     archive: str
     sizes: dict[str, int] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
     stored: dict[str, str] = field(default_factory=dict)
     at: dict[str, int] = field(default_factory=dict)
+    cut: str | None = None
+    ended: bool = True
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -59,6 +62,12 @@ class Listed:
         told = [f"{name!r}: {why}" for name, why in self.refused.items()]
         more = f" and {len(told) - _SHOWN} more" if len(told) > _SHOWN else ""
         return ", ".join(told[:_SHOWN]) + more or "nothing"
+
+    @property
+    def lost(self) -> str | None:
+        """What is lost of an archive that is cut off behind a file; None where nothing is, or that file tells it."""
+        behind = f"behind {self.names[-1]!r}" if self.names else "behind its last file"
+        return None if self.ended else f"the archive is cut off {behind}: what stood there is lost"
 
     def member(self, name: str) -> str:
         """The name of a file as the archive has it. FormatError where it may not be read, FileNotFoundError where there
@@ -155,17 +164,18 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     name, most = Path(archive).name, most_of(mark[2])
     kind = "ZIP" if name.lower().endswith(_ZIP) else "TAR"
     try:
-        members = _zipped(archive) if kind == "ZIP" else tarred(Path(archive), most)
+        held = Tarred(_zipped(archive)) if kind == "ZIP" else tarred(Path(archive), most)
     except OSError as error:
         if error.errno is not None:  # of the disk
             raise
         raise _unreadable(name, kind, error) from None
     except _WRONG as error:
         raise _unreadable(name, kind, error) from None
+    members = held.members
     whole = sum(m.size for m in members)
     if len(members) > MOST_FILES or whole > most:
         raise more_than_logs(name, most, len(members), whole)
-    found = Listed(name)
+    found = Listed(name, cut=next((_path(m) for m in members if m.cut), None), ended=held.ended)
     last, again = {_path(m): m for m in members}, "there are two of this name"
     twice = {path for path, n in Counter(map(_path, members)).items() if n > 1 and kind == "ZIP"}
     for m in members:

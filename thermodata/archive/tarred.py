@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import tarfile
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BufferedReader
 from pathlib import Path
 from typing import IO, Any, cast
@@ -15,22 +16,33 @@ from thermodata.archive.regular import opened
 from thermodata.archive.too_much import MOST_FILES, more_than_logs
 
 _PART = 1 << 18
+_ENDS = "it ends before its end mark: what came behind is lost"
 _HEADER, _HEADERS = 1 << 20, 128 << 20  # [bytes] of one file, and of all: a long name is some 1.5 kB
 
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A file as an archive has it. why: it is not read; at: in a TAR archive, unpacked."""
+    """A file as an archive has it. why: it is not read; at: in a TAR archive, unpacked. cut: the archive ends within
+    it, and size is what is left."""
 
     name: str
     size: int
     why: str | None
     at: int = 0
+    cut: bool = False
 
 
-def tarred(archive: Path, most: int) -> list[Member]:
-    """No further than to where there are too many files, or bytes: FormatError. TarError, EOFError and what unpacks say
-    where it is damaged, or ends before its end mark: what stood behind would be missing without a word."""
+@dataclass(frozen=True, slots=True)
+class Tarred:
+    """ended: whether the end mark stands behind the files; where none does, what stood behind the last one is lost."""
+
+    members: list[Member]
+    ended: bool = True
+
+
+def tarred(archive: Path, most: int) -> Tarred:
+    """No further than to where there are too many files, or bytes: FormatError. TarError and what unpacks say where it
+    is damaged, EOFError where it is cut off within its first file's header."""
     with opened(archive) as file:
         packer = packed_by(file.read(16))
         file.seek(0)
@@ -41,23 +53,40 @@ def tarred(archive: Path, most: int) -> list[Member]:
                 raise tarfile.ReadError("one header stands before the other, and no file behind them") from None
 
 
-def _members(stream: _Forward) -> list[Member]:
+def _members(stream: _Forward) -> Tarred:
     found, count, size = list[Member](), 0, 0
-    with tarfile.open(fileobj=cast(IO[bytes], stream), mode="r:") as tar:
-        while (m := tar.next()) is not None:
-            cast(Any, tar).members.clear()  # each has a copy of what the archive says of all
-            stream.begin_header()
-            count += 1
-            if m.size < 0:
-                raise tarfile.ReadError(f"a file of {m.size} bytes, by the header at byte {m.offset}")
-            if not m.isdir():
-                held = 0 if m.issparse() else m.size  # no gap is unpacked
-                found.append(Member(m.name, held, _refused(m), m.offset_data))
-                size += held
-            if count > MOST_FILES or size > stream.most:
-                raise more_than_logs(stream.name, stream.most, count, size)
+    try:
+        with tarfile.open(fileobj=cast(IO[bytes], stream), mode="r:") as tar:
+            while (m := tar.next()) is not None:
+                cast(Any, tar).members.clear()  # each has a copy of what the archive says of all
+                stream.begin_header()
+                count += 1
+                if m.size < 0:
+                    raise tarfile.ReadError(f"a file of {m.size} bytes, by the header at byte {m.offset}")
+                if not m.isdir():
+                    held = 0 if m.issparse() else m.size  # no gap is unpacked
+                    found.append(Member(m.name, held, _refused(m), m.offset_data))
+                    size += held
+                if count > MOST_FILES or size > stream.most:
+                    raise more_than_logs(stream.name, stream.most, count, size)
+    except EOFError:
+        if not found:
+            raise
+        return _cut(found, stream.end())
     stream.must_end()
-    return found
+    return Tarred(found)
+
+
+def _cut(found: list[Member], end: int) -> Tarred:
+    """The files of an archive that is cut off at a byte."""
+    last = found[-1]
+    if last.at + last.size <= end:
+        return Tarred(found, ended=False)
+    if (left := end - last.at) > 0:
+        return Tarred([*found[:-1], replace(last, size=left, cut=True)])
+    if len(found) == 1:
+        raise EOFError(_ENDS)
+    return Tarred(found[:-1], ended=False)
 
 
 def _refused(member: tarfile.TarInfo) -> str | None:
@@ -77,6 +106,12 @@ class _Forward:
     def tell(self) -> int:
         return self._at
 
+    def end(self) -> int:
+        """Where the archive ends."""
+        if isinstance(self._stream, BufferedReader):
+            return self._stream.seek(0, os.SEEK_END)
+        return self._at
+
     def begin_header(self) -> None:
         """What is read from here on is of the next file."""
         self._header = 0
@@ -88,7 +123,7 @@ class _Forward:
         self._header, self._headers = self._header + size, self._headers + size
         self._block = self._read(size)
         if len(self._block) < size:
-            raise EOFError("it ends before its end mark: what came behind is lost")
+            raise EOFError(_ENDS)
         return self._block
 
     def seek(self, to: int) -> int:
@@ -114,10 +149,18 @@ class _Forward:
 
     def _read(self, size: int) -> bytes:
         parts, missing = [], size
-        while missing and (part := self._stream.read(missing)):
+        while missing and (part := self._next(missing)):
             parts.append(part)
             missing -= len(part)
             self._at += len(part)
             if self._at > self.most and not isinstance(self._stream, BufferedReader):
                 raise more_than_logs(self.name, self.most, 0, self._at)
         return b"".join(parts)
+
+    def _next(self, size: int) -> bytes:
+        """What comes next, at most so many bytes; nothing where a packed one is cut off: what stands before the cut was
+        given."""
+        try:
+            return self._stream.read1(size)
+        except EOFError:
+            return b""

@@ -79,10 +79,13 @@ def held(path: Path) -> Iterator[Path]:
 
 
 def is_cut(path: Path) -> bool:
-    """Whether a log was packed alone and is cut off, so that what was unpacked is its beginning."""
+    """Whether a log was packed alone and is cut off, or the archive ends within it, so that what was unpacked is its
+    beginning."""
     where = _packed_in(path)
     if where is None:
         return False
+    if where[1]:
+        return listed(where[0]).cut == where[1]
     with _lock:
         return _copy(*where).cut
 

@@ -45,6 +45,9 @@ def column(data: Data, name: str) -> list[object]:
 def test_values_are_held_until_they_change(tmp_path: Path) -> None:
     path = written(tmp_path, SHDR, "log.txt")
     assert "SHDR" in (Reader().sniff(head(path)) or "")
+    said = Reader().describe(path, Source("nc"))
+    assert any("the lines say no units" in note for note in said.notes)
+    assert {s.properties.get("protocol") for s in said.signals} == {"SHDR"}
     data = load(Reader(), path, Source())
     assert not data.losses
     assert ((data.t_ns["nc"] - T0) / 1e9).tolist() == [0, 1.5, 2, 3.25, 4, 5]

@@ -40,9 +40,11 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
         session.answer({"report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
         return
     from thermodata.report.quality.told import by_cause, by_channel, with_reason
+    from thermodata.store.views.result import OF_ITS_TEST
     from thermodata.view.lists.not_measured import not_measured
 
-    found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
+    query = f"select * from quality_event e where {OF_ITS_TEST}"
+    found = rows_of(session, f"select * from ({query})", campaign, "campaign, test, source, channel, from_s")
     files = _files(session, campaign)
     said_by_log = not_measured(session.store(), campaign)
     outside = _outside(files, {(row["campaign"], row["test"]) for row in said_by_log})

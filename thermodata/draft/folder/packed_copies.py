@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Collection, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path, PurePosixPath
 
-from thermodata.archive.members import archive_of, size_of
+from thermodata.archive.members import archive_of, listed, size_of
 from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError
 from thermodata.reader.files.rotated import as_unpacked
 from thermodata.schema.words.sentences import with_count
 
 _SHOWN = 3
+_NUMBER = re.compile(r"\d")
 
 
 def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
     """Packed file -> the one that is called as it was before, and holds the same: 'a.csv.gz' -> 'a.csv',
     'day.zip/a.csv' -> 'day/a.csv', 'a.csv.xz' -> 'a.csv.gz' beside it. Of two archives only where all that is in one
-    is in the other: logs of two tests may well be equal, as a speed that both were told."""
+    is in the other, or all that is called alike in both is equal and has a number in its name, as 'T3.csv' of a day in
+    the week's: logs of two tests may well be equal, as a speed that both were told."""
     size, digest = cache(partial(_size, folder)), cache(partial(_digest, folder))
     new = partial(_Known, size, digest)
     known = new()
@@ -45,11 +48,21 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     for files in sorted(archives.values(), key=len, reverse=True):
         copies = {p: of for p in files if (of := known.like(p)) is not None}
         rest = [p for p in files if p not in copies]
-        found |= copies | next((again for other in whole if (again := other.all_like(rest))), {})
+        found |= copies | (
+            next((again for other in whole if (again := other.all_like(rest))), {})
+            or {p: of for other in whole for p, of in other.shared_with(rest).items()}
+        )
         whole.append(new())
         for path in (p for p in rest if p not in found):
             whole[-1].add(path)
     return found
+
+
+def cut_archives(folder: Path, paths: Iterable[PurePosixPath]) -> list[tuple[str, str]]:
+    """(archive, what is lost of it), of those that end behind a file without an end mark."""
+    inside = (archive_of(folder / path) for path in paths)
+    archives = dict.fromkeys(found[0] for found in inside if found is not None)
+    return [(a.relative_to(folder).as_posix(), lost) for a in archives if (lost := listed(a).lost) is not None]
 
 
 class _Known:
@@ -80,6 +93,13 @@ class _Known:
                 return {}
             found[path] = of
         return found
+
+    def shared_with(self, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+        """The same of what one archive shares with another in part; none where a file of one name differs: such names
+        are those of any test."""
+        both = [p for p in paths if as_unpacked(p).name in self._named]
+        found = {p: of for p in both if _NUMBER.search(as_unpacked(p).stem) and (of := self.like(p)) is not None}
+        return found if len(found) == len(both) else {}
 
     def _fitting(self, path: PurePosixPath) -> list[PurePosixPath]:
         """Those of its name that may hold the same, by their sizes."""

@@ -27,6 +27,13 @@ def id_of(folder: Path, held: Mapping[str, str] = NOTHING_HELD) -> str:
     return next(name for name in _ids(folder) if name not in held or _is_its(name, held[name], out))
 
 
+def taken_by_another(folder: Path, name: str, held: Mapping[str, str]) -> tuple[str, str] | None:
+    """(the id that a folder's campaign would have, the file of the other one that has it) where its own is `name`
+    instead, as `id_of` drafts it; None else."""
+    first = next(_ids(folder))
+    return (first, held[first]) if first != name == id_of(folder, held) else None
+
+
 def _ids(folder: Path) -> Iterator[str]:
     path = folder.resolve()
     telling = [p.name for p in (path, *path.parents) if p.name and not _SAYS_NOTHING.fullmatch(p.name)] or [path.name]

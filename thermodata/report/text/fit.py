@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.collected.lost import lost_of_chain, lost_sentence, results_gone_of_chain
-from thermodata.report.text.table import table
+from thermodata.report.text.table import prose, table
 from thermodata.report.words.glossary import IN_SAMPLE, LEVEL, explained
 from thermodata.report.words.numbers import base_role, change, duration, number, pooled, tests_of_role
 from thermodata.schema.words.sentences import listed
@@ -83,7 +83,7 @@ def scores_text(scores: list[Score], phases: bool = False) -> str:
 
 def leveled(text: str) -> str:
     """A table of errors with the line that says from where they count."""
-    return f"{text}\n\n{LEVEL}"
+    return f"{text}\n\n{prose(LEVEL)}"
 
 
 def compare_text(results: list[FitResult]) -> str:
@@ -112,7 +112,7 @@ def compare_text(results: list[FitResult]) -> str:
         for result in fitted:
             at = next(i for i, (key, _) in enumerate(columns) if key == f"rmse {result.model}") + 2
             columns.insert(at, (f"role {result.model}", "in-sample"))
-    below = f"\n{explained('verification')}" if fitted else ""
+    below = f"\n{prose(explained('verification'))}" if fitted else ""
     return leveled(table(list(rows.values()), columns)) + below
 
 
@@ -120,7 +120,7 @@ def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     """The versions of a model, as rows of `history_rows`."""
     lost = history_lost(chain)
     head = f"{lost}\n\n" if lost else ""
-    told = f"\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
+    told = f"\n{prose(f'in-sample: {IN_SAMPLE}')}" if any(row["in_sample"] for row in chain) else ""
     return head + leveled(table(*history_table(chain))) + told
 
 
@@ -232,7 +232,9 @@ def before_after_text(result: FitResult) -> str:
     were = {s.test for s in result.before or [] if s.role != base_role(s.role)} - too
     once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
     return "\n".join(
-        filter(None, [f"{head}{leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told, once])
+        filter(
+            None, [f"{head}{leveled(table(rows, columns))}\n{prose(explained('verification', 'fitted'))}", told, once]
+        )
     )
 
 

@@ -55,6 +55,17 @@ def screen_width() -> int:
     return max(40, shutil.get_terminal_size((80, 24)).columns)
 
 
+def prose(text: str, width: int | None = None) -> str:
+    """Lines of words folded where the screen ends; a line that goes on is put in by two. width: of the screen;
+    `screen_width()` where None."""
+    room = screen_width() if width is None else width
+    told = list[str]()
+    for line in text.splitlines():
+        first, *rest = _fold(line, room)
+        told += [first, *(f"  {x}" for x in _fold(line[len(first) :].lstrip(), room - 2) if rest)]
+    return "\n".join(told)
+
+
 @dataclass(frozen=True)
 class _Column:
     heading: str

@@ -11,6 +11,7 @@ from typing import Any
 from thermodata.errors import UsageError
 from thermodata.schema.files.campaign import Campaign, Test
 from thermodata.schema.words.sentences import counted, with_count
+from thermodata.store.ingest.days_of_tests import is_of_its_days
 from thermodata.store.ingest.known.inventory import Inventory
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 
@@ -22,8 +23,9 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     """UsageError where the store holds another campaign with that id, whose tests and logs would go. path: of the
     campaign file.
 
-    It is the same one where it stands at the same place and its machine is no other, where the machine is the same and
-    a test too, or where its logs say so: then it may move, and its machine and tests may get other names."""
+    It is the same one where it stands at the same place and its machine is no other, where its logs say so, or where
+    the machine is the same and a test that has no logs now, or logs of the same days: then it may move, its logs may be
+    exported anew, and its machine and tests may get other names."""
     held = _logs_held(inventory)
     if inventory.campaign is None or not held:
         return
@@ -31,21 +33,28 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     stays = is_same_place(inventory.campaign["path"], path)
     if len(machines - {_UNKNOWN}) < 2 and stays:
         return
-    tests = {t.id for t in files.campaign.tests}
-    if len(machines) == 1 and _UNKNOWN not in machines and not held.keys().isdisjoint(tests):
+    found = {t.id: _logs_found(files, t) for t in files.campaign.tests}
+    if _has_its_logs(held, found):
         return
-    if _has_its_logs(held, {t.id: _logs_found(files, t) for t in files.campaign.tests}):
+    one_machine = len(machines) == 1 and _UNKNOWN not in machines
+    named = [t for t in files.campaign.tests if t.id in held] if one_machine else []
+    if any(not found[t.id] or held[t.id] & found[t.id] or is_of_its_days(inventory, files, t) for t in named):
         return
+    got = "none of them"
+    if stays:
+        got = "that file, of another machine"
+    elif named:
+        got = f"the tests {with_count([t.id for t in named], _NAMED)} with other logs, of other days or of none"
     raise UsageError(
         f"the store holds another campaign with the id '{inventory.name}'",
         where="id",
-        expected="the same machine with the same file or a test that is held, or a test with the logs "
+        expected="the same machine with the same file or a test of the days that are held, or a test with the logs "
         "that it has there",
-        got=f"{'that file, of another machine' if stays else 'none of them'}; the store's is that of "
+        got=f"{got}; the store's is that of "
         f"{_machines(inventory)}, {inventory.campaign['path']}, with "
         f"{counted(len(held), 'test')}: {with_count(held, _NAMED)}",
-        hint=f"write an id of its own ('{_own_id(files.campaign)}'), or, where the store's tests are to go, or the "
-        "machine only got another name: thermodata ingest --replace",
+        hint=f"write an id of its own ('{_own_id(files.campaign, inventory)}'), or, where the store's tests are to go, "
+        "or the machine only got another name: thermodata ingest --replace",
     )
 
 
@@ -102,6 +111,8 @@ def _machine_in(campaign: Mapping[str, Any]) -> str:
     return str((spec.get("machine") or {}).get("id"))
 
 
-def _own_id(campaign: Campaign) -> str:
-    """An id that says the machine too."""
+def _own_id(campaign: Campaign, inventory: Inventory) -> str:
+    """An id that says the machine too; of the same one, another number."""
+    if campaign.machine.id == _machine_in(inventory.campaign or {}):
+        return f"{campaign.id}-2"
     return f"{campaign.id}-{campaign.machine.id}".replace(" ", "-")

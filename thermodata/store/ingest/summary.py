@@ -14,6 +14,7 @@ from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers
 from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
+from thermodata.store.ingest.told.cut_archives import cut_archives
 from thermodata.store.ingest.told.empty_channels import nothing_brought
 from thermodata.store.ingest.told.how_logs_stand import how_logs_stand
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
@@ -80,7 +81,7 @@ def summarize(
             | {MOVES: getattr(campaign.calibrations[r.name], "move_uncertainty", None)}
             for r in layers.calibrations.values()
         ],
-        losses=with_lines(_losses(layers, notes), path),
+        losses=with_lines([*_losses(layers, notes), *_cut_archives(layers, files_of_tests)], path),
         notes=list(
             dict.fromkeys(
                 (
@@ -107,6 +108,11 @@ def _losses(layers: Layers, notes: Mapping[str, TestNote]) -> Losses:
         *nothing_brought(layers.files.campaign, notes),
         *(loss_row(problem) for problem in layers.problems),
     ]
+
+
+def _cut_archives(layers: Layers, files_of_tests: Mapping[str, Sequence[str]]) -> Losses:
+    every = dict.fromkeys(path for paths in files_of_tests.values() for path in paths)
+    return cut_archives(every, layers.files.full)
 
 
 def _how_logs_stand(

@@ -20,8 +20,12 @@ from (select campaign, test, unnest(map_entries(cast(phases as map(varchar, doub
       from test where phases is not null and json_type(phases) = 'OBJECT') p
 order by all"""
 
-QUALITY = """create view quality as
-select campaign, test, source, channel, lower(flag) as flag, from_s, to_s, n, detail from quality_event"""
+# what came before a window is no sample of the test: of one recording it would be told in each of its tests
+OF_ITS_TEST = """not exists (select 1 from test t where t.campaign = e.campaign and t.test = e.test
+    and t.window_s is not null and t.history = 'recording' and e.to_s < 0)"""
+QUALITY = f"""create view quality as
+select campaign, test, source, channel, lower(flag) as flag, from_s, to_s, n, detail from quality_event e
+where {OF_ITS_TEST}"""
 
 GAP = """create view gap as
 select campaign, test, source, channel, from_s, to_s, to_s - from_s as duration_s, detail

@@ -14,10 +14,12 @@ from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.probes.which_way import ways
 from thermodata.draft.writing.baseline import responses_of
 from thermodata.draft.writing.fill_in import Question, filled_in, questions
+from thermodata.draft.writing.own_id import taken_by_another
 from thermodata.draft.writing.unread import WHAT
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.files.campaign import Channel
 from thermodata.schema.files.load import parse_campaign
+from thermodata.store.catalogue.campaign_paths import campaign_paths
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
@@ -79,6 +81,7 @@ def show(request: Request) -> Response:
         path=path,
         there=text is not None,
         stored=[] if text is not None or not desk.has_store else _stored(desk),
+        id_taken=None if text is None else _id_taken(desk, path, text),
         groups=[(title, _open_first(asked, kinds), why) for title, kinds, why in GROUPS],
         open_ones=sum(q.open for q in asked),
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
@@ -99,6 +102,16 @@ def _stored(desk: Desk) -> list[tuple[str, str | None]]:
         near = path is not None and path.is_file() and any(path.resolve().is_relative_to(f) for f in desk.folders)
         found.append((name, str(path) if near else None))
     return found
+
+
+def _id_taken(desk: Desk, path: Path, text: str) -> tuple[str, str, str] | None:
+    """(the id of a campaign file, the one that its folder would have given it, the file of the campaign of the store
+    that has that one); None where the draft got the id of its folder, or its user wrote another."""
+    with contextlib.suppress(SpecError):
+        name = parse_campaign(text, path.name).id
+        taken = taken_by_another(path.parent, name, campaign_paths(desk.store_path))
+        return None if taken is None else (name, *taken)
+    return None
 
 
 def _open_first(asked: list[Question], kinds: tuple[str, ...]) -> list[Question]:

@@ -83,6 +83,7 @@ _HOURS_ALONE = re.compile(r"(?:(?P<word>[^\W\d_]+)\W+)?(?<![\d:.,])\d{1,3} ?h(?:
 _AT = frozenset(
     ("a", "um", "at", "v", "ve", "alle", "las", "ore", "kl", "om", "o", "as", "ab", "von", "vom", "from", "de", "dalle")
 )
+_WHOLE_DAY = 24  # [h]
 _LONGEST = 200  # letters that a date is looked for in
 _FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
 
@@ -110,11 +111,19 @@ def spoken(text: str) -> Spoken | None:
     hours = _HOURS_ALONE.search(_folded(rest))
     lasting = hours is not None and hours["word"] not in _AT
     clock, timed, rest = _clock_in(rest)
+    if lasting and clock is not None and _hour(clock) == _WHOLE_DAY:
+        return None  # '24 h' beside a date is how long it took, sooner than the midnight behind it
     left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
     whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
     if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
         return None
     return Spoken(" ".join(filter(None, (date, clock, zone and zone[0]))), None if zone else place, timed, lasting)
+
+
+def _hour(clock: str) -> int | None:
+    """The hour of a time of day, as far as it begins with one."""
+    found = re.match(r"\d{1,2}", clock)
+    return None if found is None else int(found[0])
 
 
 def names_a_moment(text: str, started: bool) -> bool:

@@ -16,6 +16,10 @@ from thermodata_reader_cnc.mtconnect import time_series
 from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, Series, is_offset, is_time, looks_like_items
 
 EXAMPLE = b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n"
+NO_UNITS = (
+    "the lines say no units, and are not in MTConnect's own yet: nativeUnits in the agent's Devices.xml says what the "
+    "adapter sends"
+)
 _NAMED = 20
 _LOOK = 8 << 20  # an item may be reported for the first time late in a log
 
@@ -73,10 +77,11 @@ def describe(path: Path, source: Source) -> Recording:
             expected="lines of time|item|value",
             got=repr(look.head[0][:60]) if look.head else "nothing",
         )
-    notes = [note for note in (look.note, time_series.NOTE if look.series else None) if note]
+    notes = [note for note in (look.note, NO_UNITS, time_series.NOTE if look.series else None) if note]
     if look.relative:
         notes.append("times are relative to the adapter's start")
-    held = events.recording(look.plan, source, complete=None if look.whole else False, notes=notes)
+    sent = {key: {"protocol": "SHDR"} for key in look.plan.items}
+    held = events.recording(look.plan, source, sent, complete=None if look.whole else False, notes=notes)
     signals = (*held.signals, *(time_series.signal(key) for key in sorted(look.series)))
     return Recording(
         signals,
