@@ -21,7 +21,8 @@ import numpy as np
 from thermodata.calibration.between_tests.failing import offsets_between_tests
 from thermodata.calibration.between_tests.foreign import foreign_part
 from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import INVALID, Flag
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality.flags import ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.event import QualityEvent
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 
 N = 6000

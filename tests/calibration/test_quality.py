@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from quality_data import N, clock, kinds, noisy, run
 
+from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.concise import concise
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Float1D
 from thermodata.schema.flag import Flag
 

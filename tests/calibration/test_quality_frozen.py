@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from quality_data import clock, kinds, run
 
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import Flag
 

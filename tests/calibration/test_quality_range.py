@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.calibration.quality.range import ends_of_ranges
 from thermodata.calibration.quality.still import Reading
 from thermodata.schema.flag import Flag

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from quality_data import clock, kinds, noisy, run
 
-from thermodata.calibration.quality.flags import QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.plugin import Float1D
 from thermodata.schema.flag import Flag
 

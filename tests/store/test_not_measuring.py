@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.calibration.quality.flags import QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.store.tidy.flags.not_measuring import ONLY, Activity, join_while_not_measuring
 from thermodata.store.tidy.flags.standing import join_while_standing
 

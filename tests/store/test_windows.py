@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from store_fakes import daq, write_log
 
-from thermodata.calibration.quality.flags import ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.event import QualityEvent
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.files.campaign import Channel
 from thermodata.schema.flag import Flag

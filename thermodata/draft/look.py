@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.concise import concise
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError

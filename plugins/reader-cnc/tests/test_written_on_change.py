@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from thermodata.calibration.quality.flags import QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 
 _FEW, _MOST = 8, 50  # of a channel and flag
 _NEAR = 200  # the part of the whole time that may lie between two

@@ -9,8 +9,9 @@ from typing import TypeVar
 
 import numpy as np
 
+from thermodata.calibration.quality.column import ANALOG
 from thermodata.calibration.quality.concise import concise
-from thermodata.calibration.quality.flags import ANALOG, QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.files.campaign import Measuring

@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 

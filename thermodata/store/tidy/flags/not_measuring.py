@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.calibration.quality.flags import QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.plugin import Array, Bool1D, Int1D
 
 _OF_VALUES = frozenset({"held", "stuck", "saturated", "out_of_range", "spike", "offset"})

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality.flags import QualityEvent
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
 from thermodata.store.tidy.flags.not_measuring import ONLY, joined
