@@ -208,7 +208,9 @@ MUTANTS = [
     text("cells/clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
     text("cells/clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
     text("clocks/odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),
-    text("clocks/odd_clocks.py", "if _is_shaped(i, data)", "if True", "the number of a part is offered as the time"),
+    text(
+        "clocks/odd_clocks.py", "if _is_shaped(i, seen.rows)", "if True", "the number of a part is offered as the time"
+    ),
     # ---- clocks
     text("times/local_clock.py", "(ahead < -self._cycle // 2)", "(ahead < 0)", "each step back is a midnight"),
     text("times/local_clock.py", "_DAY = 24 *", "_DAY = 12 *", "days have twelve hours"),

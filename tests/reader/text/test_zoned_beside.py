@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.table_time import time_of
 from thermodata.reader.text.clocks.time_columns import find_time
 
@@ -37,8 +38,9 @@ def test_a_time_in_utc_beside_a_local_one_is_the_time(
     names: list[str], stamps: tuple[list[str], ...], column: int
 ) -> None:
     data = [[*pair, "21.5"] for pair in zip(*stamps, strict=True)]
-    assert find_time([*names, "T"], [None] * 3, data, "here") == (column,)
-    notes = time_of({}, [*names, "T"], [None] * 3, data, "here").notes
+    seen = FirstRows([*names, "T"], [None] * 3, data, "here")
+    assert find_time(seen) == (column,)
+    notes = time_of({}, seen).notes
     same = {"Local time", "UTC time"} == {*names} or column == 1
     assert any("is not used" in note for note in notes) is same
     if same:
@@ -47,5 +49,5 @@ def test_a_time_in_utc_beside_a_local_one_is_the_time(
 
 def test_a_declared_time_is_taken_without_a_word() -> None:
     data = [[*pair, "21.5"] for pair in zip(LOCAL, ZONED, strict=True)]
-    time = time_of({"column": 1}, ["Time", "Time 2", "T"], [None] * 3, data, "here")
+    time = time_of({"column": 1}, FirstRows(["Time", "Time 2", "T"], [None] * 3, data, "here"))
     assert (time.columns, time.notes) == ((0,), ())

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Sequence
 
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_number, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.times.open_questions import UNKNOWN
 
@@ -17,34 +19,32 @@ _EACH = 0.9  # of the rows, that have a text of their own
 _SHAPE = re.compile(r"([01]?\d|2[0-3])\D{1,4}[0-5]\d(\D.*)?")  # 8h05, 08-00-00, 8 Uhr 05
 
 
-def clock_question(
-    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
-) -> QuestionError | None:
+def clock_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
     """What to ask where a column of dates alone was found for the time, and another column may tell the hour. None
     where the dates tell the rows apart, or nothing else does."""
     if len(columns) != 1:
         return None
     (place,) = columns
-    days = [r[place].strip() for r in data if isinstance(r[place], str) and is_dated(r[place])]
+    days = [r[place].strip() for r in seen.rows if isinstance(r[place], str) and is_dated(r[place])]
     if not days or any(map(says_the_hour, days)) or max(Counter(days).values()) < _MANY:
         return None
-    others = [i for i in range(len(names)) if i != place and _differs(i, data)]
+    others = [i for i in range(len(seen.names)) if i != place and _differs(i, seen.rows)]
     if not others:
         return None
-    worded = (i for i in others if is_time_header(names[i]))
-    other = next(worded, next((i for i in others if _is_shaped(i, data)), None))
+    worded = (i for i in others if is_time_header(seen.names[i]))
+    other = next(worded, next((i for i in others if _is_shaped(i, seen.rows)), None))
     if other is None:
-        return _period_question(place, days[0], names, where)
-    first = str(next(r[other] for r in data if r[other] not in ("", None))).strip()[:40]
+        return _period_question(place, days[0], seen)
+    first = str(next(r[other] for r in seen.rows if r[other] not in ("", None))).strip()[:40]
     column = [place + 1, other + 1]
     return QuestionError(
-        f"dates without a time of day in many rows, beside '{names[other]}', which is not read as one",
-        where=f"{where} column '{names[place]}'",
+        f"dates without a time of day in many rows, beside '{seen.names[other]}', which is not read as one",
+        where=f"{seen.where} column '{seen.names[place]}'",
         expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00 PM, ...",
         got=f"{days[0]} and {first}",
         hint=f"declare table: {{time: {{column: {column}, format: '%d.%m.%Y %H:%M:%S'}}}} in strptime's letters, or "
         "time: {period: 10 s}",
-        times=[names[place], names[other]],
+        times=[seen.names[place], seen.names[other]],
         ask=f"format of the time in columns {column[0]} and {column[1]}, in strptime's letters, or period: 10 s? "
         f"'{days[0]}' tells no hour, and '{first}' is not read",
         declare={"time": {"column": column, "format": UNKNOWN}},
@@ -52,11 +52,11 @@ def clock_question(
     )
 
 
-def _period_question(place: int, day: str, names: list[str], where: str) -> QuestionError:
+def _period_question(place: int, day: str, seen: FirstRows) -> QuestionError:
     """What to ask where no other column looks like a time."""
     return QuestionError(
         "dates without a time of day in many rows",
-        where=f"{where} column '{names[place]}'",
+        where=f"{seen.where} column '{seen.names[place]}'",
         expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00 PM, ...",
         got=day,
         hint="declare the time from row to row: table: {time: {period: 10 s}}",
@@ -67,7 +67,7 @@ def _period_question(place: int, day: str, names: list[str], where: str) -> Ques
     )
 
 
-def _is_shaped(column: int, data: list[list[Cell]]) -> bool:
+def _is_shaped(column: int, data: Sequence[Sequence[Cell]]) -> bool:
     """Whether most texts of a column look like times of day, in whatever signs."""
     return mostly((r[column] for r in data), _is_clock, _EACH, len(data))
 
@@ -76,7 +76,7 @@ def _is_clock(cell: Cell) -> bool:
     return isinstance(cell, str) and _SHAPE.fullmatch(cell.strip()) is not None
 
 
-def _differs(column: int, data: list[list[Cell]]) -> bool:
+def _differs(column: int, data: Sequence[Sequence[Cell]]) -> bool:
     """Whether a column holds texts with digits, another in each row."""
     cells = [r[column].strip() for r in data if isinstance(r[column], str) and r[column].strip()]
     words = [c for c in cells if not is_number(c) and re.search(r"\d", c)]

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_stamp
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.times.open_questions import ASK
 
 _BEGIN = re.compile(
@@ -16,22 +17,26 @@ _END = re.compile(r"(?i)(?:^|[\W_])(?:ende?|stop|bis|to|fin|fine|konec)(?:$|[\W_
 _MOST = 0.9  # of the rows, that begin where the one before ended
 
 
-def interval_note(columns: Sequence[int], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> list[str]:
+def interval_note(columns: Sequence[int], seen: FirstRows) -> list[str]:
     """The note on rows from one time to another; none where they have one. columns: of the time that is taken."""
     own = columns[-1]
-    if not _are_stamps(own, data):
+    if not _are_stamps(own, seen.rows):
         return []
-    for other in (i for i in range(len(names)) if i not in columns and _are_stamps(i, data)):
-        ends = _follows(own, other, data) or bool(_END.search(names[own]) and _BEGIN.search(names[other]))
-        begins = _follows(other, own, data) or bool(_BEGIN.search(names[own]) and _END.search(names[other]))
+    for other in (i for i in range(len(seen.names)) if i not in columns and _are_stamps(i, seen.rows)):
+        ends = _follows(own, other, seen.rows) or bool(
+            _END.search(seen.names[own]) and _BEGIN.search(seen.names[other])
+        )
+        begins = _follows(other, own, seen.rows) or bool(
+            _BEGIN.search(seen.names[own]) and _END.search(seen.names[other])
+        )
         if ends is begins:
             continue
         first, last = (other, own) if ends else (own, other)
         which = "end" if ends else "beginning"
-        declared = [_shown(columns), *map(_shown, _with_its_date(other, columns, data))]
+        declared = [_shown(columns), *map(_shown, _with_its_date(other, columns, seen.rows))]
         return [
-            f"each row has a time from '{names[first]}' to '{names[last]}': it stands at its {which}, "
-            f"'{names[own]}', and a mean would stand between them: {ASK} declare table: {{time: {{column: "
+            f"each row has a time from '{seen.names[first]}' to '{seen.names[last]}': it stands at its {which}, "
+            f"'{seen.names[own]}', and a mean would stand between them: {ASK} declare table: {{time: {{column: "
             f"{declared[0]}}}}}{''.join(f' or {d}' for d in declared[1:])}"
         ]
     return []

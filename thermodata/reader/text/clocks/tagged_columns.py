@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from thermodata.reader.text.cells.cell import TIME_WORD, Cell, is_empty, number_of
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.names.header import split_unit
 
 _PARTS = re.compile(r"[\s_.:/\\()\[\]-]+")
@@ -27,9 +28,7 @@ class Tagged:
     columns: tuple[int, ...]
 
 
-def tagged(
-    names: Sequence[str], times: Sequence[int], data: Sequence[Sequence[Cell]]
-) -> tuple[list[Tagged], list[int]]:
+def tagged(seen: FirstRows, times: Sequence[int]) -> tuple[list[Tagged], list[int]]:
     """(each time with the columns that share its name, the columns that share none); nothing where not every time
     shares its name with a column, or where names say only what the order of the columns says.
 
@@ -37,7 +36,7 @@ def tagged(
     """
     of_time: dict[Words, list[int]] = {}
     for i in times:
-        words = _without_time(_words(names[i]))
+        words = _without_time(_words(seen.names[i]))
         if not words:
             return [], []
         of_time.setdefault(words, []).append(i)
@@ -45,7 +44,7 @@ def tagged(
         return [], []
     found: dict[Words, list[int]] = {tag: list(own) for tag, own in of_time.items()}
     left = []
-    for i, name in enumerate(names):
+    for i, name in enumerate(seen.names):
         if i in times:
             continue
         tag = _tag_of(_words(name), of_time)
@@ -56,7 +55,7 @@ def tagged(
     if any(len(found[tag]) == len(of_time[tag]) for tag in found) or _in_order(found, of_time):
         return [], []
     groups = [Tagged(tuple(of_time[tag]), tuple(sorted(columns))) for tag, columns in found.items()]
-    numbers = [i for i in left if _only_numbers(names[i], [r[i] for r in data])]
+    numbers = [i for i in left if _only_numbers(seen.names[i], seen.column(i))]
     if numbers:
         groups[0] = Tagged(groups[0].times, tuple(sorted((*groups[0].columns, *numbers))))
     return groups, [i for i in left if i not in numbers]

@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside
 from thermodata.reader.text.names.called_column import by_name
@@ -42,22 +43,20 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
     )
 
 
-def find_time(
-    names: list[str], units: list[str | None], data: list[list[Cell]], where: str, likely: tuple[int, ...] = ()
-) -> tuple[int, ...]:
+def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
     """A date, a date and a time of day, a time of day, numbers under a word for time, or a first column in a unit of
     time, in this order. FormatError where there is none."""
-    width = len(names)
+    width = len(seen.names)
 
-    filled = [[r[i] for r in data if r[i] not in ("", None)] for i in range(width)]
+    filled = [[r[i] for r in seen.rows if r[i] not in ("", None)] for i in range(width)]
 
     def share(column: int, test: Any, least: float) -> bool:
         return bool(filled[column]) and mostly(filled[column], test, least, len(filled[column]))
 
-    words = [i for i in range(width) if i in likely or is_time_header(names[i])]
+    words = [i for i in range(width) if i in likely or is_time_header(seen.names[i])]
     dates = [i for i in range(width) if share(i, is_dated, 0.8)]
     clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
-    of_day = [i for i in words if since_midnight(names[i]) is not None and share(i, is_number, 0.6)]
+    of_day = [i for i in words if since_midnight(seen.names[i]) is not None and share(i, is_number, 0.6)]
     standing = _standing(
         {i: [c for c in filled[i] if is_dated(c)] for i in dates},
         [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
@@ -66,29 +65,33 @@ def find_time(
     counting = any(_numbers_go_on(filled[i]) for i in numbers)
     if counting and not clocks and not of_day:
         standing |= {i for i in dates if _days_of_many_rows(filled[i])}
-    if len(standing) == len(dates) and not (counting or _parts_go_on(names, data)):
+    if len(standing) == len(dates) and not (counting or _parts_go_on(seen)):
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
         of_hours = [i for i in dates if tell_the_hour(filled[i])]
-        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, data)
+        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, seen)
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or tell_the_hour(filled[first])
         found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
         if not clocks and not tell_the_hour(filled[first]):
-            found = (first, *columns_of_clock(first, names, data))
-        whole = with_parts(found, names, data)
+            found = (first, *columns_of_clock(first, seen))
+        whole = with_parts(found, seen)
         if whole != found:
             return whole
-        return (*found, *_parts_of_a_second(found[-1] + 1, names, [r[found[-1]] for r in data], data))
+        return (*found, *_parts_of_a_second(found[-1] + 1, seen, seen.column(found[-1])))
     if clocks:
-        return with_parts((clocks[0],), names, data)
+        return with_parts((clocks[0],), seen)
     if numbers:
         # a "t" may be many things beside a column that is called time
-        return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
-    if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
+        return (min(numbers, key=lambda i: split_unit(seen.names[i])[0].strip(" .:") == "t"),)
+    if (seen.units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
-    spans = [i for i in range(width) if (is_time_header(names[i]) or not _named(names[i])) and _are_rising(filled[i])]
+    spans = [
+        i
+        for i in range(width)
+        if (is_time_header(seen.names[i]) or not _named(seen.names[i])) and _are_rising(filled[i])
+    ]
     if spans:
         return (spans[0],)
     damaged = [i for i in range(width) if i not in standing and share(i, is_dated, 0.3)]
@@ -96,8 +99,8 @@ def find_time(
         return (damaged[0],)
     raise FormatError(
         "no time column found",
-        where=where,
-        got=", ".join(names[:12]),
+        where=seen.where,
+        got=", ".join(seen.names[:12]),
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
@@ -140,18 +143,18 @@ def _numbers_go_on(cells: Sequence[Cell]) -> bool:
     return len(values) > 1 and all(a < b for a, b in pairwise(values))
 
 
-def _parts_go_on(names: list[str], data: list[list[Cell]]) -> bool:
+def _parts_go_on(seen: FirstRows) -> bool:
     """Whether a date in columns of its own differs from row to row."""
-    parts = find_parts(names, data)
-    return parts is not None and len({tuple(r[i] for i in parts[0]) for r in data}) > 1
+    parts = find_parts(seen)
+    return parts is not None and len({tuple(r[i] for i in parts[0]) for r in seen.rows}) > 1
 
 
-def _parts_of_a_second(column: int, names: list[str], times: Sequence[Cell], data: list[list[Cell]]) -> tuple[int, ...]:
+def _parts_of_a_second(column: int, seen: FirstRows, times: Sequence[Cell]) -> tuple[int, ...]:
     """The column of text behind a date and time of whole seconds that holds their parts, where there is one."""
-    form = part_of_a_second(names[column]) if column < len(names) else None
+    form = part_of_a_second(seen.names[column]) if column < len(seen.names) else None
     if form is None or form.pattern is None:
         return ()
-    pairs = [(t, r[column]) for t, r in zip(times, data, strict=True) if is_stamp(t)]  # a repeated header is none
+    pairs = [(t, r[column]) for t, r in zip(times, seen.rows, strict=True) if is_stamp(t)]  # a repeated header is none
     whole = all(isinstance(t, str) and not _FRACTION.search(t.strip()) for t, _ in pairs)
     good = all(isinstance(c, str) and form.pattern.fullmatch(c) for _, c in pairs)
     return (column,) if pairs and whole and good else ()

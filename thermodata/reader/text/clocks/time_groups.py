@@ -17,6 +17,7 @@ import numpy as np
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cells.cell import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.tagged_columns import tagged
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.times.time_units import SECONDS, known_unit
@@ -85,18 +86,16 @@ def time_name(header: str) -> _Name | None:
     return None
 
 
-def spans(
-    names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequence[Cell]], where: str
-) -> tuple[list[Span], list[str]]:
+def spans(seen: FirstRows) -> tuple[list[Span], list[str]]:
     """(groups, notes) of a table by its headers and first rows; no groups where one time is for all columns.
 
     FormatError where a second time may be one of its own rows or of the first's.
     """
-    named = {i: n for i, name in enumerate(names) if (n := time_name(name))} or _by_unit(names, units)
-    said = {i: n for i, n in named.items() if _rises(i, n, units[i], data)}
-    by_name, left = tagged(names, tuple(said), data)
-    if by_name and left and not _one_clock([i for one in by_name for i in one.times], units, data):
-        raise _of_no_name([names[i] for i in left], names, where)
+    named = {i: n for i, name in enumerate(seen.names) if (n := time_name(name))} or _by_unit(seen)
+    said = {i: n for i, n in named.items() if _rises(i, n, seen.units[i], seen.rows)}
+    by_name, left = tagged(seen, tuple(said))
+    if by_name and left and not _one_clock([i for one in by_name for i in one.times], seen):
+        raise _of_no_name([seen.names[i] for i in left], seen)
     if by_name and not left:
         return [Span(one.times, one.columns, named=True) for one in by_name], []
     runs = _runs(said)
@@ -106,37 +105,39 @@ def spans(
     own, notes = [runs[0]], []
     for run in runs[1:]:
         if all(said[i].word != first.word or said[i].bare != first.bare for i in run[:1]):
-            notes += _other(runs[0][0], run[0], said, names, units, data, where)
-        elif not first.bare and not (_beside(run, said, names) and _beside(runs[0], said, names)):
-            _ask_if_apart(runs[0][0], run[0], names, units, data, where)
-            notes.append(_kept(names[run[0]]))
+            notes += _other(runs[0][0], run[0], said, seen)
+        elif not first.bare and not (_beside(run, said, seen) and _beside(runs[0], said, seen)):
+            _ask_if_apart(runs[0][0], run[0], seen)
+            notes.append(_kept(seen.names[run[0]]))
         else:
             own.append(run)
     if len(own) < 2:
         return [], notes
-    if own[0][0] > 0 and own[-1][-1] == len(names) - 1:
+    if own[0][0] > 0 and own[-1][-1] == len(seen.names) - 1:
         raise FormatError(
             "several time columns, each behind its columns or before them",
-            where=where,
-            got=", ".join(names[:12]),
+            where=seen.where,
+            got=", ".join(seen.names[:12]),
             expected="a time before the columns that it is of",
             hint=_HINT,
         )
-    if own[-1][-1] == len(names) - 1:
-        notes.append(_kept(names[own.pop()[0]]))
+    if own[-1][-1] == len(seen.names) - 1:
+        notes.append(_kept(seen.names[own.pop()[0]]))
     if len(own) < 2 or (first.word == "t" and own[0][0] != 0):
         return [], notes
-    edges = [0, *(run[0] for run in own[1:]), len(names)]
+    edges = [0, *(run[0] for run in own[1:]), len(seen.names)]
     return [Span(tuple(run), tuple(range(a, b))) for run, a, b in zip(own, edges, edges[1:], strict=False)], notes
 
 
-def _by_unit(names: Sequence[str], units: Sequence[str | None]) -> dict[int, _Name]:
+def _by_unit(seen: FirstRows) -> dict[int, _Name]:
     """The columns of a unit of time that share the name of a first one, whatever that is, or number it: 'x [s]',
     'x [min]'."""
-    bare = [split_unit(re.sub(r"#\d+$", "", name))[0].strip().casefold() for name in names]
+    bare = [split_unit(re.sub(r"#\d+$", "", name))[0].strip().casefold() for name in seen.names]
     words = [match["word"] if (match := _NUMBERED.match(name)) else name for name in bare]
     alike = [
-        i for i, unit in enumerate(units) if words[i] == words[0] and (unit or "").strip("[]() ").lower() in SECONDS
+        i
+        for i, unit in enumerate(seen.units)
+        if words[i] == words[0] and (unit or "").strip("[]() ").lower() in SECONDS
     ]
     return {i: _Name(words[0], "", True) for i in alike} if alike[:1] == [0] and len(alike) > 1 else {}
 
@@ -159,11 +160,11 @@ def _runs(said: Mapping[int, _Name]) -> list[list[int]]:
     return runs
 
 
-def _beside(run: Sequence[int], said: Mapping[int, _Name], names: Sequence[str]) -> bool:
+def _beside(run: Sequence[int], said: Mapping[int, _Name], seen: FirstRows) -> bool:
     """Whether 'CH1 time' stands before a column of CH1."""
-    if run[-1] + 1 >= len(names):
+    if run[-1] + 1 >= len(seen.names):
         return False
-    behind = re.sub(r"[\s_.:()\[\]-]+", "", split_unit(names[run[-1] + 1])[0]).casefold()
+    behind = re.sub(r"[\s_.:()\[\]-]+", "", split_unit(seen.names[run[-1] + 1])[0]).casefold()
     beside = said[run[0]].beside
     return beside in behind or behind in beside
 
@@ -184,79 +185,65 @@ def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[C
     return bool((steps > 0).all() if name.word == "t" and unit is None else (steps >= 0).mean() > 0.98)
 
 
-def _other(
-    first: int,
-    second: int,
-    said: Mapping[int, _Name],
-    names: Sequence[str],
-    units: Sequence[str | None],
-    data: Sequence[Sequence[Cell]],
-    where: str,
-) -> list[str]:
+def _other(first: int, second: int, said: Mapping[int, _Name], seen: FirstRows) -> list[str]:
     """Another word for time behind columns: the same clock in other words is a signal (no note), one that runs
     apart from the first is asked."""
-    if said[second].word == "t" and units[second] is None:
+    if said[second].word == "t" and seen.units[second] is None:
         return []  # a temperature that rises
-    apart = _apart(first, second, units, data)
-    if apart is None or (apart >= 0 and (not said[second].bare or second == len(names) - 1)):
-        return [_kept(names[second])]
+    apart = _apart(first, second, seen)
+    if apart is None or (apart >= 0 and (not said[second].bare or second == len(seen.names) - 1)):
+        return [_kept(seen.names[second])]
     if apart == 0:
         return []
-    raise _question(first, second, names, where)
+    raise _question(first, second, seen)
 
 
-def _ask_if_apart(
-    first: int,
-    second: int,
-    names: Sequence[str],
-    units: Sequence[str | None],
-    data: Sequence[Sequence[Cell]],
-    where: str,
-) -> None:
+def _ask_if_apart(first: int, second: int, seen: FirstRows) -> None:
     """FormatError where a second time of the same word is another clock than the first: what stands behind it would
     get times that are not its own."""
-    if second < len(names) - 1 and _apart(first, second, units, data):
-        raise _question(first, second, names, where)
+    if second < len(seen.names) - 1 and _apart(first, second, seen):
+        raise _question(first, second, seen)
 
 
-def _apart(first: int, second: int, units: Sequence[str | None], data: Sequence[Sequence[Cell]]) -> float | None:
+def _apart(first: int, second: int, seen: FirstRows) -> float | None:
     """By how much two times differ: 0 where they are one clock (but for an offset), -1 where one stands alone in a row;
     None where that cannot be told, for one is a date."""
-    if sum(is_empty(r[first]) != is_empty(r[second]) for r in data):
+    if sum(is_empty(r[first]) != is_empty(r[second]) for r in seen.rows):
         return -1.0
-    pairs = [(number_of(r[first]), number_of(r[second])) for r in data]
+    pairs = [(number_of(r[first]), number_of(r[second])) for r in seen.rows]
     rows = np.array([(a, b) for a, b in pairs if a is not None and b is not None]).reshape(-1, 2)
     if rows.shape[0] < 2:
         return None  # a date and a number of seconds
     a, b = (
-        rows[:, k] * SECONDS.get((units[i] or "s").strip("[]() ").lower(), 1.0) for k, i in ((0, first), (1, second))
+        rows[:, k] * SECONDS.get((seen.units[i] or "s").strip("[]() ").lower(), 1.0)
+        for k, i in ((0, first), (1, second))
     )
     step = float(np.median(np.abs(np.diff(a)))) or 1.0
     spread = float(np.ptp(b - a))
     return spread if spread > max(2 * step, 1e-3 * float(np.ptp(a))) else 0.0
 
 
-def _of_no_name(left: Sequence[str], names: Sequence[str], where: str) -> FormatError:
+def _of_no_name(left: Sequence[str], seen: FirstRows) -> FormatError:
     return FormatError(
         "columns that share their name with none of several times",
-        where=where,
-        got=", ".join(f"'{name}'" for name in left[:6]) + " of " + ", ".join(names[:12]),
+        where=seen.where,
+        got=", ".join(f"'{name}'" for name in left[:6]) + " of " + ", ".join(seen.names[:12]),
         expected="each column to share its name with its time, as the others do",
         hint=_HINT,
     )
 
 
-def _one_clock(times: Sequence[int], units: Sequence[str | None], data: Sequence[Sequence[Cell]]) -> bool:
+def _one_clock(times: Sequence[int], seen: FirstRows) -> bool:
     """Whether the times of a row tell the same moment in each, as those of a PC and a control: dates are written alike,
     and numbers differ by an offset. A date beside a number is another clock of the same rows where both run on."""
     first, *others = times
     for other in others:
-        pairs = [(r[first], r[other]) for r in data]
+        pairs = [(r[first], r[other]) for r in seen.rows]
         if any(is_empty(a) != is_empty(b) for a, b in pairs):
             return False
         if all(a == b for a, b in pairs):
             continue
-        apart = _apart(first, other, units, data)
+        apart = _apart(first, other, seen)
         stamped = [any(is_stamp(p[k]) for p in pairs) for k in (0, 1)]
         if apart is None and stamped[0] is not stamped[1]:
             continue
@@ -265,11 +252,11 @@ def _one_clock(times: Sequence[int], units: Sequence[str | None], data: Sequence
     return True
 
 
-def _question(first: int, second: int, names: Sequence[str], where: str) -> FormatError:
+def _question(first: int, second: int, seen: FirstRows) -> FormatError:
     return FormatError(
         "two time columns that run apart",
-        where=where,
-        got=f"'{names[first]}' and '{names[second]}'",
+        where=seen.where,
+        got=f"'{seen.names[first]}' and '{seen.names[second]}'",
         expected="one time for all columns, or each for its own",
         hint=_HINT,
     )

@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
@@ -28,32 +29,30 @@ _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of any
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 
 
-def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+def no_time(seen: FirstRows) -> QuestionError | None:
     """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
     else the time from row to row. None where it is no table of numbers."""
-    if (weeks := weeks_question((), names, data, where)) is not None:
+    if (weeks := weeks_question((), seen)) is not None:
         return weeks
-    worded = worded_time(names, data)
-    if worded is None and (days := year_and_day(names, data)) is not None:
-        return _format_question(days[0], names, days[1], " ".join(str(data[0][i]) for i in days[0]), where)
+    worded = worded_time(seen)
+    if worded is None and (days := year_and_day(seen)) is not None:
+        return _format_question(days[0], seen, days[1], " ".join(str(seen.rows[0][i]) for i in days[0]))
     if worded is None:
-        return time_question(names, data, where)
+        return time_question(seen)
     place, words = worded
-    return _format_question((place,), names, guess_format(words), words[0], where)
+    return _format_question((place,), seen, guess_format(words), words[0])
 
 
-def weeks_question(
-    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
-) -> QuestionError | None:
+def weeks_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
     """What to ask of a week of GPS and the seconds in it, which may have been found for the time (`columns`) or not;
     None where there are none, or another time is there."""
-    found = find_weeks(names, data)
+    found = find_weeks(seen.names, seen.rows)
     if found is None or not set(columns) <= set(found[0]):
         return None
     places, form = found
-    row = next(r for r in data if all(is_number(r[i]) for i in places))
+    row = next(r for r in seen.rows if all(is_number(r[i]) for i in places))
     got = " ".join(str(row[i]).strip() for i in places)
-    return question_of_weeks([i + 1 for i in places], [names[i] for i in places], got, form, where)
+    return question_of_weeks([i + 1 for i in places], [seen.names[i] for i in places], got, form, seen.where)
 
 
 def question_of_weeks(
@@ -79,14 +78,14 @@ def question_of_weeks(
     )
 
 
-def worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
+def worded_time(seen: FirstRows) -> tuple[int, list[str]] | None:
     """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
     else of the one column of texts that are stamps of one format, whatever it is called. None where there is none."""
-    if not any(sum(is_number(r[i]) for r in data) > 0.6 * len(data) for i in range(len(names))):
+    if not any(sum(is_number(r[i]) for r in seen.rows) > 0.6 * len(seen.rows) for i in range(len(seen.names))):
         return None
     stamped: list[tuple[int, list[str]]] = []
-    for i, name in enumerate(names):
-        cells = [r[i] for r in data if r[i] not in ("", None)]
+    for i, name in enumerate(seen.names):
+        cells = [r[i] for r in seen.rows if r[i] not in ("", None)]
         words = [c.strip() for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
         if not cells or len(words) <= 0.8 * len(cells):
             continue
@@ -105,30 +104,30 @@ def _are_stamps(words: Sequence[str]) -> bool:
     return form is not None and re.search("%[yY]", form) is not None and re.search("%[HI]", form) is not None
 
 
-def time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+def time_question(seen: FirstRows) -> QuestionError | None:
     """What to ask of a table of numbers without a time; None where it is no such table."""
-    width = len(names)
-    numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
-    if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
+    width = len(seen.names)
+    numbers = [i for i in range(width) if sum(is_number(r[i]) for r in seen.rows) > 0.6 * len(seen.rows)]
+    if len(seen.rows) < _FEWEST_ROWS or len(numbers) * 2 < width:
         return None
-    place, rising = likely_time(data)
-    if rising is not None and (counted := count_question(names[place], rising, where, place + 1)) is not None:
+    place, rising = likely_time(seen.rows)
+    if rising is not None and (counted := count_question(seen.names[place], rising, seen.where, place + 1)) is not None:
         return counted
-    if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
-        return unit_question(names[place], rising, where, place + 1)
-    rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in data)
+    if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(seen.names)):
+        return unit_question(seen.names[place], rising, seen.where, place + 1)
+    rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in seen.rows)
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
-    low = names[place].strip().lower().removesuffix("()")
+    low = seen.names[place].strip().lower().removesuffix("()")
     unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
     column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
     then = f"time: {column}" + (", and clock: {resets: allow} beside table" if rolls else "")
-    other = f"; or is '{names[place]}' the time{also}? then {then}" if rising is not None else ""
+    other = f"; or is '{seen.names[place]}' the time{also}? then {then}" if rising is not None else ""
     return QuestionError(
         "no time column found",
-        where=where,
+        where=seen.where,
         expected="a column of dates, or one called time or with s, min or h as its unit",
-        got=", ".join(names[:12]),
+        got=", ".join(seen.names[:12]),
         hint=f"declare the time from row to row: table: {{time: {{period: 60 s}}}}; or a column: {column}",
         ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
         declare={"time": {"period": UNKNOWN}},
@@ -185,9 +184,7 @@ def epoch_in(name: str, unit: str, cells: Sequence[Cell], where: str) -> str | N
     return epoch if epoch and epoch.startswith("unix") and EPOCHS[epoch].seconds == seconds else None
 
 
-def joined_question(
-    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
-) -> QuestionError | None:
+def joined_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
     """What to ask where dates are written as one number: 20260302080000 in the column that was found, or 20260302 in
     one that is called a date, beside times of day. None where none are."""
     if len(columns) != 1:
@@ -195,53 +192,55 @@ def joined_question(
     (place,) = columns
 
     def stamps(i: int) -> tuple[str | None, str]:
-        cells = [str(r[i]).strip() for r in data if r[i] not in ("", None)]
+        cells = [str(r[i]).strip() for r in seen.rows if r[i] not in ("", None)]
         joined = bool(cells) and all(c.isdecimal() and len(c) in (8, 12, 14) for c in cells)
         return (guess_format(cells), cells[0]) if joined else (None, "")
 
     form, first = stamps(place)
     if form is not None and "%H" in form:
-        return _format_question((place,), names, form, first, where)
-    if form is not None and (of_day := _joined_clock(place, names, data)) is not None:
-        return _format_question((place, of_day[0]), names, f"{form} {of_day[1]}", first, where)
-    if not mostly([r[place] for r in data], is_clocked, 0.8, len(data)):
+        return _format_question((place,), seen, form, first)
+    if form is not None and (of_day := _joined_clock(place, seen)) is not None:
+        return _format_question((place, of_day[0]), seen, f"{form} {of_day[1]}", first)
+    if not mostly(seen.column(place), is_clocked, 0.8, len(seen.rows)):
         return None
-    for i in (i for i, name in enumerate(names) if i != place and is_time_header(name)):
+    for i in (i for i, name in enumerate(seen.names) if i != place and is_time_header(name)):
         form, first = stamps(i)
         if form is not None and "%H" not in form:
-            return _format_question((i, place), names, form, first, where)
+            return _format_question((i, place), seen, form, first)
     return None
 
 
-def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[int, str] | None:
+def _joined_clock(day: int, seen: FirstRows) -> tuple[int, str] | None:
     """(place, format) of a column that is called a time and holds times of day in one number: 070000."""
-    for i in (i for i, name in enumerate(names) if i != day and is_time_header(name)):
-        letters = format_of_joined([str(r[i]).strip() for r in data if r[i] not in ("", None)])
+    for i in (i for i, name in enumerate(seen.names) if i != day and is_time_header(name)):
+        letters = format_of_joined([str(r[i]).strip() for r in seen.rows if r[i] not in ("", None)])
         if letters is not None:
             return i, letters
     return None
 
 
-def of_day_question(place: int, names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+def of_day_question(place: int, seen: FirstRows) -> QuestionError | None:
     """What to ask of numbers that are called a time beside days: parts of a day, or clocks such as 800 for 8:00. None
     where they are neither."""
-    if (fraction := fraction_question(place, names, data, where)) is not None:
+    if (fraction := fraction_question(place, seen)) is not None:
         return fraction
-    cells = [str(r[place]).strip() for r in data if r[place] not in ("", None)]
+    cells = [str(r[place]).strip() for r in seen.rows if r[place] not in ("", None)]
     letters = format_of_joined(cells)
-    for day in days_beside(place, names, data) if letters is not None else ():
-        days = [str(r[day]).strip() for r in data if r[day] not in ("", None)]
+    for day in days_beside(place, seen) if letters is not None else ():
+        days = [str(r[day]).strip() for r in seen.rows if r[day] not in ("", None)]
         form = guess_format(days)
         spelled = None if form is None else f"{form} {letters}"
-        return _format_question((day, place), names, spelled, f"{days[0]} {cells[0]}", where)
+        return _format_question((day, place), seen, spelled, f"{days[0]} {cells[0]}")
     return None
 
 
-def zone_question(names: list[str], data: list[list[Cell]], where: str, columns: Iterable[int]) -> QuestionError | None:
+def zone_question(seen: FirstRows, columns: Iterable[int]) -> QuestionError | None:
     """What to ask of times behind which a word stands that is no zone, or several: 2026-03-02 08:00:00 CST. None where
     none stands there. columns: that may hold the time."""
     for i in sorted(columns):
-        cells = [r[i].strip() for r in (*data[:ZONED_ROWS], *data[-ZONED_ROWS:]) if isinstance(r[i], str) and r[i]]
+        cells = [
+            r[i].strip() for r in (*seen.rows[:ZONED_ROWS], *seen.rows[-ZONED_ROWS:]) if isinstance(r[i], str) and r[i]
+        ]
         if not cells or ":" not in cells[0]:
             continue
         words = {c: w for c in cells if (w := word_behind(c)) is not None}
@@ -256,12 +255,12 @@ def zone_question(names: list[str], data: list[list[Cell]], where: str, columns:
         said = {"time": {"column": i + 1, "format": form}}
         return QuestionError(
             f"times in a zone that has several meanings: '{word}'" if len(zones) > 1 else f"an unknown zone '{word}'",
-            where=f"{where} column '{names[i]}'",
+            where=f"{seen.where} column '{seen.names[i]}'",
             expected=f"an offset such as +01:00, or one of {', '.join(HOURS)}",
             got=cell,
             hint=f"declare what it is in the source: timezone: {shown}; and table: {{time: {{column: {i + 1}, "
             f"format: '{form if spelled else '%Y-%m-%d %H:%M:%S ' + word}'}}}}",
-            times=[names[i]],
+            times=[seen.names[i]],
             ask=f"zone of the times: what is '{word}'? write timezone: {shown} into this source",
             declare=said,
             meanwhile=said if spelled else {"time": {"period": 1.0}},
@@ -275,9 +274,7 @@ def without_word(cell: Cell) -> Cell:
     return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
 
 
-def _format_question(
-    columns: tuple[int, ...], names: list[str], form: str | None, got: str, where: str
-) -> QuestionError:
+def _format_question(columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str) -> QuestionError:
     """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
     column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
     asked = (
@@ -286,11 +283,11 @@ def _format_question(
     said = {"time": {"column": column, "format": form or UNKNOWN}}
     return QuestionError(
         "times that are written in no way that is read by itself",
-        where=where,
+        where=seen.where,
         expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
         got=got,
         hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}",
-        times=[names[c] for c in columns],
+        times=[seen.names[c] for c in columns],
         ask=f"format of the times: is '{got}' {form}?" if form else asked,
         declare=said,
         meanwhile=said if form else {"time": {"period": 1.0}},

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_empty, mostly
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.zone_words import stated_zone
 
 _ZONED = re.compile(r":\d\d(?:[.,]\d+)?\s*(?:Z|UTC|[+-]\d\d:?\d\d)$")
@@ -18,44 +19,44 @@ _OF_ITS_WAY = re.compile(
 _DAY_MS, _HOUR_MS, _QUARTER_MS = 86_400_000, 3_600_000, 900_000
 
 
-def zoned_beside(first: int, dates: Sequence[int], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> int:
+def zoned_beside(first: int, dates: Sequence[int], seen: FirstRows) -> int:
     """The column of the time: another one that says where it stands from UTC, where that of the local time beside it
     does not, and both are one clock. dates: columns that tell the hour too."""
-    if _says_zone(first, names, data):
+    if _says_zone(first, seen):
         return first
-    others = (i for i in dates if i != first and _says_zone(i, names, data))
-    return next((i for i in others if _is_same_clock(first, i, names, data)), first)
+    others = (i for i in dates if i != first and _says_zone(i, seen))
+    return next((i for i in others if _is_same_clock(first, i, seen)), first)
 
 
-def beside_note(time: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> list[str]:
+def beside_note(time: int, seen: FirstRows) -> list[str]:
     """What is told of a time that stands in local time too."""
-    if not _says_zone(time, names, data):
+    if not _says_zone(time, seen):
         return []
-    others = [i for i in range(len(names)) if i != time and not _says_zone(i, names, data)]
+    others = [i for i in range(len(seen.names)) if i != time and not _says_zone(i, seen)]
     return [
-        f"the time is '{names[time]}', which says where it stands from UTC; the same in '{names[i]}' is not used: "
-        f"declare table: {{time: {{column: {i + 1}}}}} if that is wrong"
+        f"the time is '{seen.names[time]}', which says where it stands from UTC; the same in '{seen.names[i]}' is not "
+        f"used: declare table: {{time: {{column: {i + 1}}}}} if that is wrong"
         for i in others
-        if _is_same_clock(i, time, names, data)
+        if _is_same_clock(i, time, seen)
     ]
 
 
-def _says_zone(column: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> bool:
-    filled = [r[column] for r in data if not is_empty(r[column])]
-    return stated_zone([names[column]]) is not None or mostly(filled, _ends_in_zone, 0.9, len(filled))
+def _says_zone(column: int, seen: FirstRows) -> bool:
+    filled = [r[column] for r in seen.rows if not is_empty(r[column])]
+    return stated_zone([seen.names[column]]) is not None or mostly(filled, _ends_in_zone, 0.9, len(filled))
 
 
 def _ends_in_zone(cell: Cell) -> bool:
     return isinstance(cell, str) and _ZONED.search(cell.strip()) is not None
 
 
-def _is_same_clock(local: int, zoned: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> bool:
+def _is_same_clock(local: int, zoned: int, seen: FirstRows) -> bool:
     """Whether two columns differ by the same quarters of an hour in all rows, or by two values an hour apart where
     clocks change; by their times of day, whose digits are the same in all orders of a date."""
-    if _OF_ITS_WAY.search(names[zoned]):
+    if _OF_ITS_WAY.search(seen.names[zoned]):
         return False
-    pairs = [(a, b) for r in data if (a := _clock(r[local])) and (b := _clock(r[zoned]))]
-    if 2 * len(pairs) < len(data) or len({a for a, _ in pairs}) < 2:
+    pairs = [(a, b) for r in seen.rows if (a := _clock(r[local])) and (b := _clock(r[zoned]))]
+    if 2 * len(pairs) < len(seen.rows) or len({a for a, _ in pairs}) < 2:
         return False
     step = max(coarse for pair in pairs for _, coarse in pair)  # one may leave parts of a second out
     apart = {(b // step - a // step) * step % _DAY_MS for (a, _), (b, _) in pairs}

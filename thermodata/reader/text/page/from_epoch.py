@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.text.cells.cell import Cell, is_number, number_of
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.clocks.time_questions import likely_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
@@ -28,37 +29,33 @@ def stated_epoch(said: Any, lines: Iterable[Sequence[str]]) -> SaidEpoch | None:
     return epoch_said(lines)
 
 
-def answer_of(
-    stated: SaidEpoch, names: Sequence[str], units: Sequence[str | None], data: Sequence[Sequence[Cell]]
-) -> dict[str, Any] | None:
+def answer_of(stated: SaidEpoch, seen: FirstRows) -> dict[str, Any] | None:
     """The declaration of a time that nothing else tells; None where none of the columns is one, so counted."""
     worded = [
-        i for i, n in enumerate(names) if is_time_header(n) and sum(is_number(r[i]) for r in data) > len(data) / 2
+        i
+        for i, n in enumerate(seen.names)
+        if is_time_header(n) and sum(is_number(r[i]) for r in seen.rows) > len(seen.rows) / 2
     ]
-    place = worded[0] if worded else likely_time(data)[0]
-    unit = stated.of(units[place] or unit_of_time(names[place]))
-    values = _column_of(data, place)
+    place = worded[0] if worded else likely_time(seen.rows)[0]
+    unit = stated.of(seen.units[place] or unit_of_time(seen.names[place]))
+    values = _column_of(seen.rows, place)
     return {"column": place + 1, "unit": unit} if unit is not None and is_logged(values, unit) else None
 
 
 def from_epoch(
-    stated: SaidEpoch,
-    groups: Sequence[Group],
-    notes: Sequence[str],
-    names: Sequence[str],
-    units: Sequence[str | None],
-    data: Sequence[Sequence[Cell]],
-    where: str,
+    stated: SaidEpoch, groups: Sequence[Group], notes: Sequence[str], seen: FirstRows
 ) -> tuple[list[Group], list[str]]:
     """(groups whose times count from what the head states, notes); those of dates, of no time, and whose names state an
     epoch themselves, as they are. QuestionError where it leaves open whether they count leap seconds."""
     found, noted = [], list(notes)
     for group in groups:
         place = group.time[0] if group.time and not group.dated and not group.counted else None
-        if place is not None and (unit_of_time(names[place], units[place]) or "") not in EPOCHS:
-            values = _column_of(data, place)
-            number = None if is_time_header(names[place]) else place + 1
-            asked = scale_question(names[place], values, where, number, hint=PTP) if stated.scale == PTP else None
+        if place is not None and (unit_of_time(seen.names[place], seen.units[place]) or "") not in EPOCHS:
+            values = _column_of(seen.rows, place)
+            number = None if is_time_header(seen.names[place]) else place + 1
+            asked = (
+                scale_question(seen.names[place], values, seen.where, number, hint=PTP) if stated.scale == PTP else None
+            )
             if asked is not None:
                 raise asked
             seconds = group.seconds if group.seconds is not None else EPOCHS[group.epoch or ""].seconds

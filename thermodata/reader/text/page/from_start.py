@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.cell import Cell
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.time_questions import COUNTERS, likely_time
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import unit_of_time
@@ -34,15 +34,14 @@ def _unit_in(name: str) -> str | None:
     return COUNTERS.get(found) or unit_of_time(name) or (found if found in SECONDS else None)
 
 
-def with_start(
-    question: QuestionError, names: Sequence[str], data: Sequence[Sequence[Cell]], lines: Iterable[Sequence[str]]
-) -> QuestionError:
+def with_start(question: QuestionError, seen: FirstRows, lines: Iterable[Sequence[str]]) -> QuestionError:
     """A question of the time from row to row, where a column counts from the start that stands above the rows: with
     both as its answer; another question as it is."""
     if question.declare.get("time") != {"period": UNKNOWN}:
         return question
-    place, rising = likely_time(data)
-    unit = _unit_in(names[place])
+    place, rising = likely_time(seen.rows)
+    name = seen.names[place]
+    unit = _unit_in(name)
     said = None if rising is None or unit not in SECONDS else head_start(list(lines), booted=True)
     if rising is None or unit is None or said is None or said.clock_ns is None or said.several or said.either:
         return question
@@ -56,11 +55,11 @@ def with_start(
         where=question.where,
         expected=question.expected,
         got=f"{question.got}; above them: '{said.text[:_LONGEST]}'",
-        hint=f"declare table: {{time: {{column: {place + 1}, unit: {unit}, start: {HEAD}}}}} where '{names[place]}' "
+        hint=f"declare table: {{time: {{column: {place + 1}, unit: {unit}, start: {HEAD}}}}} where '{name}' "
         f"counts from there; else {question.hint}",
-        ask=f"unit of the time: does '{names[place]}' count {unit} from '{said.text[:_LONGEST]}' above the rows? "
+        ask=f"unit of the time: does '{name}' count {unit} from '{said.text[:_LONGEST]}' above the rows? "
         f"{rising[0]:.14g} is {at} then; else time: {{column: {place + 1}, unit: {unit}}}, or time: {{period: 10 s}}",
         declare=answer,
         meanwhile=answer,
-        times=[names[place]],
+        times=[name],
     )

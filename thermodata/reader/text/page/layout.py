@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.signals.by_place import BY_PLACE
 from thermodata.reader.text.cells.cell import Cell, is_dated
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.names.before_values import names_before_values
 from thermodata.reader.text.names.declared_names import declared_names, unused_note
 from thermodata.reader.text.names.described import descriptions
@@ -115,9 +116,10 @@ def find_layout(
     if "header_rows" not in said:
         lost = lines_between(above, width, skip, header.names, header.units, where, between is not None)
     lines = [texts_of(r) for r in above]
-    groups, notes = _times(said.get("time"), header, data, lines, where)
+    seen = FirstRows(header.names, header.units, data, where)
+    groups, notes = _times(said.get("time"), seen, lines)
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
-    against = [against_interval(header.names[i], [r[i] for r in data], groups[0].seconds, lines) for i in time]
+    against = [against_interval(header.names[i], seen.column(i), groups[0].seconds, lines) for i in time]
     called = ", ".join(header.worded.values())
     by_words = f"columns are called by the words before their values: {called}" if called else None
     noted = (*notes, *lost, by_words, fit.note if fit else None, lacking, header.unused, *against)
@@ -171,23 +173,20 @@ def _header(
     return _Header(unique(heads), units, over, described, worded, unused)
 
 
-def _times(
-    declared: Any, header: _Header, data: list[list[Cell]], lines: Sequence[Sequence[str]], where: str
-) -> tuple[list[Group], list[str]]:
+def _times(declared: Any, seen: FirstRows, lines: Sequence[Sequence[str]]) -> tuple[list[Group], list[str]]:
     """(the groups of columns with one time, notes): by the columns, and by what lines above them say that times count
     from. declared: `table: {time: ...}`; lines: the cells above the data. QuestionError where both leave it open."""
-    names, units = header.names, header.units
     stated = stated_epoch(declared, lines)
     try:
-        groups, notes = find_groups(declared or {}, names, units, data, where)
+        groups, notes = find_groups(declared or {}, seen)
         if stated is not None:
-            groups, notes = from_epoch(stated, groups, notes, names, units, data, where)
+            groups, notes = from_epoch(stated, groups, notes, seen)
         return groups, notes
     except QuestionError as question:
-        answer = None if stated is None else answer_of(stated, names, units, data)
+        answer = None if stated is None else answer_of(stated, seen)
         if stated is None or answer is None:
-            raise with_start(with_interval(question, lines), names, data, lines) from None
-    groups, notes = find_groups(answer, names, units, data, where)
+            raise with_start(with_interval(question, lines), seen, lines) from None
+    groups, notes = find_groups(answer, seen)
     return groups, [*notes, stated.note(answer["unit"])]
 
 

@@ -12,6 +12,7 @@ from itertools import pairwise
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_number, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.joined_clock import read_joined
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.text.names.header import split_unit
@@ -64,38 +65,37 @@ def _since_midnight(unit_ns: int, cell: str) -> int:
     return NAT if value is None or not 0 <= value * unit_ns < _MOST_DAYS * DAY_NS else round(value * unit_ns)
 
 
-def columns_of_clock(day: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
+def columns_of_clock(day: int, seen: FirstRows) -> tuple[int, ...]:
     """The columns behind a date that are called hour, minute and second and hold such numbers."""
-    of_day = next((i for i, name in enumerate(names) if i != day and since_midnight(name) is not None), None)
-    if of_day is not None and clock_of_numbers(names[of_day], [r[of_day] for r in data]) is not None:
+    of_day = next((i for i, name in enumerate(seen.names) if i != day and since_midnight(name) is not None), None)
+    if of_day is not None and clock_of_numbers(seen.names[of_day], seen.column(of_day)) is not None:
         return (of_day,)
     found: tuple[int, ...] = ()
-    for letter, place in zip("HMS", range(day + 1, len(names)), strict=False):
-        word = split_unit(names[place])[0].strip(" #.:_").casefold()
-        if word not in _WORDS[letter] or clock_of_numbers(names[place], [r[place] for r in data]) is None:
+    for letter, place in zip("HMS", range(day + 1, len(seen.names)), strict=False):
+        word = split_unit(seen.names[place])[0].strip(" #.:_").casefold()
+        if word not in _WORDS[letter] or clock_of_numbers(seen.names[place], seen.column(place)) is None:
             break
         found = (*found, place)
     return found
 
 
-def fraction_question(
-    place: int, names: Sequence[str], data: Sequence[Sequence[Cell]], where: str
-) -> QuestionError | None:
+def fraction_question(place: int, seen: FirstRows) -> QuestionError | None:
     """What to ask of numbers below 1 that are called a time, beside days; None where they are none."""
-    full = [v for r in data if (v := number_of(r[place])) is not None]
+    full = [v for r in seen.rows if (v := number_of(r[place])) is not None]
     if not full or not all(0 <= v < 1 for v in full) or len(set(full)) < 2:
         return None
-    for day in days_beside(place, names, data):
+    name = seen.names[place]
+    for day in days_beside(place, seen):
         said = {"time": {"column": [day + 1, place + 1]}}
         return QuestionError(
             "numbers below 1 beside a date",
-            where=f"{where} column '{names[place]}'",
+            where=f"{seen.where} column '{name}'",
             expected="a unit of time, or a fraction of the day",
             got=f"{full[0]:g}, {full[1]:g} ...",
             hint=f"declare table: {{time: {{column: [{day + 1}, {place + 1}]}}}} where they are a fraction of the day "
-            f"in '{names[day]}', else table: {{time: {{column: {place + 1}, unit: h}}}}",
-            times=[names[day], names[place]],
-            ask=f"column: is '{names[place]}' a fraction of the day in '{names[day]}'? else {{column: {place + 1}, "
+            f"in '{seen.names[day]}', else table: {{time: {{column: {place + 1}, unit: h}}}}",
+            times=[seen.names[day], name],
+            ask=f"column: is '{name}' a fraction of the day in '{seen.names[day]}'? else {{column: {place + 1}, "
             "unit: h}",
             declare=said,
             meanwhile=said,
@@ -103,10 +103,10 @@ def fraction_question(
     return None
 
 
-def days_beside(place: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> Iterator[int]:
+def days_beside(place: int, seen: FirstRows) -> Iterator[int]:
     """The other columns that hold dates without a time of day."""
-    for day in (i for i in range(len(names)) if i != place):
-        cells = [r[day] for r in data if not is_empty(r[day])]
+    for day in (i for i in range(len(seen.names)) if i != place):
+        cells = [r[day] for r in seen.rows if not is_empty(r[day])]
         if cells and mostly(cells, is_dated, 0.9, len(cells)) and not says_the_hour(str(cells[0])):
             yield day
 
@@ -126,12 +126,12 @@ def days_of_years(pieces: Sequence[str]) -> Callable[[str], int] | None:
     return partial(_of_year, tuple(pieces))
 
 
-def year_and_day(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
+def year_and_day(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a year, its day and a time of day that are called so: `Year, DOY, HHMM`; None where there
     are none. Without a header they are known by their values: a year, a day and a clock that goes on, side by side."""
-    if all(name == f"column {i + 1}" for i, name in enumerate(names)):
-        return _unnamed(names, data)
-    words = [split_unit(n)[0].strip(" #.:_").casefold() for n in names]
+    if all(name == f"column {i + 1}" for i, name in enumerate(seen.names)):
+        return _unnamed(seen)
+    words = [split_unit(n)[0].strip(" #.:_").casefold() for n in seen.names]
     year = next((i for i, w in enumerate(words) if w in ("year", "jahr", "rok", "année", "año", "yyyy")), None)
     day = next((i for i, w in enumerate(words) if w in _DAYS_OF_YEAR), None)
     if year is None or day is None:
@@ -141,17 +141,17 @@ def year_and_day(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[
         if clock is None:
             continue
         reads = partial(_of_year, ("%Y", "%j", form[1]))
-        if all(reads(f"{r[year]} {r[day]} {r[clock]}") != NAT for r in data):
+        if all(reads(f"{r[year]} {r[day]} {r[clock]}") != NAT for r in seen.rows):
             return (year, day, clock), f"%Y %j {form[1]}"
     return None
 
 
-def _unnamed(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
+def _unnamed(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
     reads = partial(_of_year, ("%Y", "%j", "%H%M"))
-    for year in range(len(names) - 3):
-        times = [reads(f"{r[year]} {r[year + 1]} {r[year + 2]}") for r in data]
+    for year in range(len(seen.names) - 3):
+        times = [reads(f"{r[year]} {r[year + 1]} {r[year + 2]}") for r in seen.rows]
         rises = all(a < b for a, b in pairwise(times))
-        if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in data}) <= 2:
+        if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in seen.rows}) <= 2:
             return (year, year + 1, year + 2), "%Y %j %H%M"
     return None
 

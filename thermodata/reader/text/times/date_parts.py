@@ -17,6 +17,7 @@ from thermodata.plugin import Int1D
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.cell import Cell, is_clocked, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import HALF
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.number import text_array
 from thermodata.reader.text.cells.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.text.names.header import split_unit
@@ -50,12 +51,12 @@ _WHOLE_CLOCK = re.compile(rf"^\s*\d{{1,2}}:\d\d:\d\d\s*({HALF})?\s*$", re.ASCII)
 PART = TimeFormat("part", None, "")  # of a time whose first column has the format of all of them
 
 
-def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
+def find_parts(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a date in columns that are named for its parts, with hours or a time of day beside them;
     None where there is none. Of parts without seconds, a time of day beside them that says the same hours and minutes
     comes before these. It and a column of milliseconds behind whole seconds are not part of the format."""
     found: dict[str, int] = {}
-    for i, name in enumerate(names):
+    for i, name in enumerate(seen.names):
         word = split_unit(re.sub(r"#\d+$", "", name))[0].strip(" #.:_").casefold()
         # the first "mm" is a month, the second one a minute
         letter = next((x for x in _ORDER if word in _LETTERS[x] and x not in found), None)
@@ -65,22 +66,22 @@ def find_parts(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
         return None
     parts = [x for x in _ORDER if x in found]
     parts = parts[: next((k for k, x in enumerate(parts) if x != _ORDER[k]), len(parts))]
-    year = [number_of(r[found["Y"]]) for r in data]
+    year = [number_of(r[found["Y"]]) for r in seen.rows]
     short = mostly(year, lambda v: v is not None and v < 100, 0.8, len(year))
     letters = [("y" if short else "Y") if x == "Y" else x for x in parts]
-    if not all(_fits([r[found[x]] for r in data], letter) for x, letter in zip(parts, letters, strict=True)):
+    if not all(_fits(seen.column(found[x]), letter) for x, letter in zip(parts, letters, strict=True)):
         return None
     columns = tuple(found[x] for x in parts)
     if "S" not in parts:
-        others = [i for i in range(len(names)) if i not in columns and _share(data, i, is_clocked)]
-        clocks = [i for i in others if _agree(i, columns[3:], data)]
+        others = [i for i in range(len(seen.names)) if i not in columns and _share(seen.rows, i, is_clocked)]
+        clocks = [i for i in others if _agree(i, columns[3:], seen.rows)]
         if clocks:
             columns, letters = (*columns[:3], clocks[0]), letters[:3]
         elif "H" not in parts:
             return None
-    if _whole_seconds(columns[-1], "S" in parts, data) and columns[-1] + 1 < len(names):
+    if _whole_seconds(columns[-1], "S" in parts, seen.rows) and columns[-1] + 1 < len(seen.names):
         behind = columns[-1] + 1
-        if MILLISECONDS.match(names[behind]) and _fits([r[behind] for r in data], "ms"):
+        if MILLISECONDS.match(seen.names[behind]) and _fits(seen.column(behind), "ms"):
             columns = (*columns, behind)
     return columns, " ".join(f"%{letter}" for letter in letters)
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stamp
 from thermodata.reader.text.cells.clock_pattern import is_half, needs_half
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.cells.zone_words import SEVERAL, is_zone, offset_ns
 from thermodata.reader.text.names.header import split_unit
@@ -70,11 +71,11 @@ def belongs_to_time(cells: Sequence[Cell], header: str | None = None) -> bool:
     return are_halves(cells) or (are_zones(cells) if header is None else is_zone_column(cells, header))
 
 
-def with_parts(columns: tuple[int, ...], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
+def with_parts(columns: tuple[int, ...], seen: FirstRows) -> tuple[int, ...]:
     """The columns of a time with those beside its time of day that belong to it: a half of the day before or behind,
     and a zone."""
     clock = columns[-1]
-    rows = [r for r in data if is_stamp(r[clock]) and ":" in str(r[clock])]  # a repeated header is none
+    rows = [r for r in seen.rows if is_stamp(r[clock]) and ":" in str(r[clock])]  # a repeated header is none
 
     def cells(i: int) -> list[Cell]:
         return [r[i] for r in rows]
@@ -84,16 +85,16 @@ def with_parts(columns: tuple[int, ...], names: Sequence[str], data: Sequence[Se
     if before >= 0 and before not in columns and rows and are_halves(cells(before)):
         out = (*columns[:-1], before, clock)
     behind = clock + 1
-    while behind < len(names) and rows and belongs_to_time(cells(behind), names[behind]):
+    while behind < len(seen.names) and rows and belongs_to_time(cells(behind), seen.names[behind]):
         out = (*out, behind)
         behind += 1
     return out
 
 
-def zone_notes(columns: Sequence[int], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> list[str]:
+def zone_notes(columns: Sequence[int], seen: FirstRows) -> list[str]:
     """What is told of the columns of a time that hold its zone."""
-    rows = [r for r in data if any(is_stamp(r[i]) for i in columns)]
-    zones = [names[i] for i in columns[1:] if are_zones([r[i] for r in rows])]
+    rows = [r for r in seen.rows if any(is_stamp(r[i]) for i in columns)]
+    zones = [seen.names[i] for i in columns[1:] if are_zones([r[i] for r in rows])]
     return [f"the zone in '{name}' is used, not the declared one" for name in zones]
 
 
@@ -129,23 +130,21 @@ def read_together(form: TimeFormat, columns: Sequence[Sequence[Cell]]) -> TimeFo
     return replace(form, columns=len(columns), pattern=pattern)
 
 
-def part_question(
-    columns: tuple[int, ...], names: Sequence[str], data: Sequence[Sequence[Cell]], where: str
-) -> QuestionError | FormatError | None:
+def part_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | FormatError | None:
     """What to ask, or to refuse, where a column behind the time is called a part of it and its cells are not known."""
     place = columns[-1] + 1
-    if place >= len(names) or belongs_to_time([r[columns[-1]] for r in data]):
+    if place >= len(seen.names) or belongs_to_time(seen.column(columns[-1])):
         return None
-    if not any(":" in str(r[columns[-1]]) for r in data):
+    if not any(":" in str(r[columns[-1]]) for r in seen.rows):
         return None
-    words = sorted({str(r[place]).strip() for r in data if not is_empty(r[place])})
-    name, own = names[place], [i + 1 for i in columns]
+    words = sorted({str(r[place]).strip() for r in seen.rows if not is_empty(r[place])})
+    name, own = seen.names[place], [i + 1 for i in columns]
     if not words or not any(any(c.isalpha() for c in w) for w in words):
         return None
     if names_half(name):
         return FormatError(
             "a half of the day in words that are not known",
-            where=f"{where} column '{name}'",
+            where=f"{seen.where} column '{name}'",
             expected="AM and PM",
             got=", ".join(words[:6]),
             hint=f"write AM and PM, or times of 24 hours; where they are, declare table: {{time: {{column: {own}}}}}",
@@ -156,11 +155,11 @@ def part_question(
     said = {"time": {"column": own}}
     return QuestionError(
         f"times in a zone that is not known by its word: '{words[0]}'",
-        where=f"{where} column '{name}'",
+        where=f"{seen.where} column '{name}'",
         expected="an offset such as +01:00, or a word for one zone",
         got=", ".join(words[:6]),
         hint=f"declare it in the source: timezone: {shown}; and table: {{time: {{column: {own}}}}}",
-        times=[names[i] for i in columns],
+        times=[seen.names[i] for i in columns],
         ask=f"zone of the times: what is '{words[0]}'? write timezone: {shown} into this source",
         declare=said,
         meanwhile=said,

@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.plugin import Bool1D
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_empty, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.odd_clocks import clock_question
 from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, filled, have_days, is_once
@@ -44,20 +45,20 @@ def texts(column: Any) -> list[str]:
     return ["" if v is None else str(v) for v in column.to_pylist()]
 
 
-def clock_beside(day: int, names: list[str], rows: list[list[Cell]], where: str) -> int | None:
-    """The column of times of day beside a column of days; None where there is none. rows: of `as_cells`.
+def clock_beside(day: int, seen: FirstRows) -> int | None:
+    """The column of times of day beside a column of days; None where there is none. seen: of cells of `as_cells`.
 
     QuestionError where many rows share a day, and what tells their hour is not read.
     """
-    cells = [r[day] for r in rows if not is_empty(r[day])]
+    cells = [r[day] for r in seen.rows if not is_empty(r[day])]
     if not cells or any(not is_dated(c) or not isinstance(c, str) or says_the_hour(c) for c in cells):
         return None
-    for i in (i for i in range(len(names)) if i != day):
-        column = [r[i] for r in rows if not is_empty(r[i])]
+    for i in (i for i in range(len(seen.names)) if i != day):
+        column = [r[i] for r in seen.rows if not is_empty(r[i])]
         # a duration of Arrow counts from a start, and is no time of day
         if column and mostly(column, lambda c: isinstance(c, str) and is_clocked(c), 0.8, len(column)):
             return i
-    asked = clock_question((day,), names, rows, where)
+    asked = clock_question((day,), seen)
     if asked is not None:
         raise asked
     return None

@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.table_time import time_of
 from thermodata.reader.text.clocks.time_columns import column as find_column
@@ -39,6 +40,10 @@ class Columns:
     metadata: Mapping[bytes, bytes] | None
     head: Callable[[int], Any]
     cells: Callable[[], list[list[Any]]]
+
+    def seen(self) -> FirstRows:
+        """Its first rows, as those of a table of text."""
+        return FirstRows(self.names, self.units, self.cells(), self.where)
 
 
 @dataclass(slots=True)
@@ -89,7 +94,7 @@ def _found(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
         found = _of_cells(columns, said)
     kind = columns.schema.field(found.column).type
     if not found.beside and _is_moment(kind) and not pt.is_time(kind):
-        clock = clock_beside(found.column, columns.names, columns.cells(), columns.where)
+        clock = clock_beside(found.column, columns.seen())
         found.beside = () if clock is None else (clock,)
     return found
 
@@ -99,16 +104,16 @@ def _of_cells(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     words or in parts takes, and how these are written. QuestionError, FormatError: as `time_of`."""
     import pyarrow.types as pt
 
-    rows = columns.cells()
+    seen = columns.seen()
     try:
-        found = find_time(columns.names, columns.units, rows, columns.where)[0]
+        found = find_time(seen)[0]
     except FormatError:
         found = None
     kind = None if found is None else columns.schema.field(found).type
     # numbers are told by more rows than these
-    if found is not None and not (_is_text(kind) or pt.is_date(kind) or find_parts(columns.names, rows)):
+    if found is not None and not (_is_text(kind) or pt.is_date(kind) or find_parts(seen)):
         return FoundTime(found, said.get("unit"), said.get("format"))
-    time = time_of(said, columns.names, columns.units, rows, columns.where)
+    time = time_of(said, seen)
     form = said.get("format") or time.form
     return FoundTime(time.columns[0], said.get("unit"), form, time.columns[1:], [*time.notes])
 
