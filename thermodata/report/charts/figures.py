@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,55 +40,15 @@ def part_chart(
 
     weak: with their ranks over the whole page.
     """
-    size = block_size(len(part.measured), most)
-    hours = _hours(part, size)
+    drawn = _Drawn(part, unit, block_size(len(part.measured), most))
+    hours = _hours(part, drawn.size)
     whole = (part.start_s / 3600, (part.start_s + part.step_s * len(part.measured)) / 3600)
-    # a machine that is measured now and then gives points; a line would hide where it was not measured
-    sparse = bool(np.mean(np.isfinite(part.residual)) < 0.9)
-
-    def series(name: str, values: Float1D, colour: str, sd: Float1D | None = None, **more: object) -> Series:
-        shown = block_mean(values, size)
-        band = None if sd is None else band_95(shown, block_mean(sd, size))
-        own = part.unit if name in ("measured", "model") and part.unit else unit
-        return Series(name, own, shown, colour, band=band, **more)  # type: ignore[arg-type]
-
-    panels: list[Panel | Strip] = [
-        Panel(
-            part.response,
-            part.unit or unit,
-            [
-                series("measured", part.measured, "measured", style="points" if sparse else "line", width=1.4),
-                series("model", part.predicted, "model", part.predicted_sd, width=2.0),
-            ],
-            height=_TALL,
-        ),
-        Panel(
-            "residual: measured − model",
-            unit,
-            [series("residual", part.residual, "residual", style="points" if sparse else "line", width=1.3)],
-            height=_LOW,
-            zero=True,
-            limits=_noise_limits(noise_um, part.step_s, unit),
-        ),
-    ]
+    panels: list[Panel | Strip] = [_measured(drawn), _residual(drawn, noise_um)]
     if part.contributions:
-        curves = [
-            series(
-                c.name,
-                c.values,
-                styles.get(c.name, ("muted", "solid"))[0],
-                c.sd,
-                dash=styles.get(c.name, ("", "solid"))[1],
-            )
-            for c in part.contributions
-        ]
-        title = (
-            f"contributions of the effects{f', {SHADED}' if any(c.sd is not None for c in part.contributions) else ''}"
-        )
-        panels.append(Panel(title, unit, curves, height=_MIDDLE))
+        panels.append(_contributions(drawn, styles))
     if part.drivers:
-        panels.append(_drivers(part.drivers, size))
-    panels += [_lane(c, hours, size) for c in part.lanes]
+        panels.append(_drivers(part.drivers, drawn.size))
+    panels += [_lane(c, hours, drawn.size) for c in part.lanes]
     return Chart(
         f"Test {part.test}: measured and modelled {part.response} with the residual, contributions, drivers and state",
         Axis(TIME, "h", range=whole),
@@ -95,6 +56,51 @@ def part_chart(
         panels,
         spans=[*_weak_spans(weak, unit), *_phase_spans(part)],
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Drawn:
+    """A test as its panels show it: means of blocks of `size` samples. unit: of the residual."""
+
+    part: TestPart
+    unit: str
+    size: int
+
+    @property
+    def style(self) -> str:
+        """A machine that is measured now and then gives points; a line would hide where it was not measured."""
+        return "points" if np.mean(np.isfinite(self.part.residual)) < 0.9 else "line"
+
+    def series(self, name: str, values: Float1D, colour: str, sd: Float1D | None = None, **more: object) -> Series:
+        shown = block_mean(values, self.size)
+        band = None if sd is None else band_95(shown, block_mean(sd, self.size))
+        own = self.part.unit if name in ("measured", "model") and self.part.unit else self.unit
+        return Series(name, own, shown, colour, band=band, **more)  # type: ignore[arg-type]
+
+
+def _measured(drawn: _Drawn) -> Panel:
+    part = drawn.part
+    curves = [
+        drawn.series("measured", part.measured, "measured", style=drawn.style, width=1.4),
+        drawn.series("model", part.predicted, "model", part.predicted_sd, width=2.0),
+    ]
+    return Panel(part.response, part.unit or drawn.unit, curves, height=_TALL)
+
+
+def _residual(drawn: _Drawn, noise_um: float | None) -> Panel:
+    curve = drawn.series("residual", drawn.part.residual, "residual", style=drawn.style, width=1.3)
+    limits = _noise_limits(noise_um, drawn.part.step_s, drawn.unit)
+    return Panel("residual: measured − model", drawn.unit, [curve], height=_LOW, zero=True, limits=limits)
+
+
+def _contributions(drawn: _Drawn, styles: Mapping[str, tuple[str, str]]) -> Panel:
+    shown = drawn.part.contributions
+    looks = [styles.get(c.name, ("muted", "solid")) for c in shown]
+    curves = [
+        drawn.series(c.name, c.values, colour, c.sd, dash=dash) for c, (colour, dash) in zip(shown, looks, strict=True)
+    ]
+    shaded = f", {SHADED}" if any(c.sd is not None for c in shown) else ""
+    return Panel(f"contributions of the effects{shaded}", drawn.unit, curves, height=_MIDDLE)
 
 
 def _hours(part: TestPart, size: int) -> Float1D:
