@@ -60,6 +60,31 @@ def build_report(store: Store, ref: str, out: Path | str) -> Path:
 
 def render(data: ReportData) -> str:
     """The page's HTML. Names and texts from data are escaped; figures stand in it as JSON."""
+    styles = effect_styles([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
+    spots = ranked_spots(data)
+    return str(
+        _template().render(
+            data=data,
+            unit=typeset(data.unit),
+            unit_of=lambda found: typeset(data.unit_of(found)),
+            styles=styles,
+            several=len(data.responses) > 1,
+            mixed=len({data.unit_of(name) for name in data.responses}) > 1,
+            maps=[str(i or "") for i in range(len(in_one_unit(data.tests, data.unit_of)))],
+            weak=[(rank, w, _box(data, w), _response_of(data, w)) for rank, w in spots],
+            tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
+            **page_values(_figures(data, styles, spots)),
+            **_ASKED_BY_THE_PAGE,
+            **_summary(data),
+            **_verdicts(data),
+            **_heat_rows(data),
+            **_parameter_rows(data),
+            **_score_rows(data),
+        )
+    )
+
+
+def _template() -> Any:
     import jinja2
 
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
@@ -71,58 +96,64 @@ def render(data: ReportData) -> str:
         change=change,
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
-    template = environment.from_string((files("thermodata.report.page") / "page.html.j2").read_text(encoding="utf-8"))
-    styles = effect_styles([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
-    spots = ranked_spots(data)
-    heat = _heat(data)
+    return environment.from_string((files("thermodata.report.page") / "page.html.j2").read_text(encoding="utf-8"))
+
+
+# what the template calls with values of its own
+_ASKED_BY_THE_PAGE: dict[str, Any] = {
+    "path_styles": path_styles,
+    "probability_text": probability_text,
+    "of_response": of_response,
+    "capital": capital,
+    "told": told,
+    "beside": beside,
+    "how": HOW,
+}
+
+
+def _summary(data: ReportData) -> dict[str, Any]:
+    """What stands above the figures: headline, errors, what is left, how the versions became so."""
     errors = error_rows(data)
-    return template.render(
-        data=data,
-        unit=typeset(data.unit),
-        styles=styles,
-        path_styles=path_styles,
-        **page_values(_figures(data, styles, spots)),
-        waterfall=waterfall(data.versions),
-        lost=typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),
-        faults=log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
-        heat=heat,
-        probability_text=probability_text,
-        heat_names=names_of_pieces(heat.courses) if heat else [],
-        heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
-        weak=[(rank, w, _box(data, w), _response_of(data, w)) for rank, w in spots],
-        headline=typeset(headline(data)),
-        sentences=[typeset(line) for line in sentences(data)],
-        errors=errors,
-        head=headline_error(errors),
-        how=HOW,
-        left=what_is_left(data),
-        verdict=_said(data, data.diagnosis, verdict_sentence),
-        could_hide=_said(data, data.diagnosis, could_hide),
-        reason=_said(data, data.reason, verdict_sentence),
-        of_response=of_response,
-        unit_of=lambda found: typeset(data.unit_of(found)),
-        capital=capital,
-        maps=[str(i or "") for i in range(len(in_one_unit(data.tests, data.unit_of)))],
-        told_together=some_of(data.told_together, data.responses),
-        mixed=len({data.unit_of(name) for name in data.responses}) > 1,
-        tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
-        parameters=[
-            {
-                "effect": key.rpartition(".")[0] or key,
-                "name": key.rpartition(".")[2],
-                "span": span(data, key),
-                **p.model_dump(),
-            }
-            for key, p in data.parameters.items()
-        ],
-        checks=[c for c in data.checks if not c.passed],
-        told=told,
-        beside=beside,
-        several=len(data.responses) > 1,
-        phased=[s for s in data.scores if s.phase != "all"],
-        locked_note=locked_note(data),
-        **_score_rows(data),
-    )
+    return {
+        "headline": typeset(headline(data)),
+        "sentences": [typeset(line) for line in sentences(data)],
+        "errors": errors,
+        "head": headline_error(errors),
+        "left": what_is_left(data),
+        "waterfall": waterfall(data.versions),
+        "lost": typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),
+        "told_together": some_of(data.told_together, data.responses),
+        "locked_note": locked_note(data),
+    }
+
+
+def _verdicts(data: ReportData) -> dict[str, Any]:
+    return {
+        "verdict": _said(data, data.diagnosis, verdict_sentence),
+        "could_hide": _said(data, data.diagnosis, could_hide),
+        "reason": _said(data, data.reason, verdict_sentence),
+        "faults": log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
+    }
+
+
+def _heat_rows(data: ReportData) -> dict[str, Any]:
+    """The heat that no signal tells, where the diagnosis found some."""
+    heat = _heat(data)
+    return {
+        "heat": heat,
+        "heat_names": names_of_pieces(heat.courses) if heat else [],
+        "heat_lines": [(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
+    }
+
+
+def _parameter_rows(data: ReportData) -> dict[str, Any]:
+    """Parameters by effect, and the checks of the fit that failed."""
+    parts = ((key, key.rpartition("."), p) for key, p in data.parameters.items())
+    rows = [
+        {"effect": effect or key, "name": name, "span": span(data, key), **p.model_dump()}
+        for key, (effect, _, name), p in parts
+    ]
+    return {"parameters": rows, "checks": [c for c in data.checks if not c.passed]}
 
 
 def _said(data: ReportData, found: Diagnosis | None, sentence: Callable[[Diagnosis], str]) -> str:
@@ -263,4 +294,5 @@ def _score_rows(data: ReportData) -> dict[str, Any]:
             most[unit] = max([most.get(unit, 0.0), *(e for e in both if e is not None)])
     found = [c for d in (data.diagnosis, data.reason) if d for c in d.candidates]
     tried = [e for c in found for e in (c.rmse_um_before, c.rmse_um_after) if e]
-    return {"whole": rows, "most_score": most, "most_candidate": max(tried, default=1.0)}
+    phased = [s for s in data.scores if s.phase != "all"]
+    return {"whole": rows, "phased": phased, "most_score": most, "most_candidate": max(tried, default=1.0)}
