@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from thermodata.report.collected.data import ReportData, TestPart
@@ -25,13 +26,23 @@ if TYPE_CHECKING:
     from thermodata.view.grid.dataset import Dataset
 
 
+@dataclass(frozen=True, slots=True)
+class _Reason:
+    """Why the last effect was added. said: the answer of an ancestor, None where none says so; shown: the same where
+    the page shows it; of_fit, offered: see `ReportData`."""
+
+    said: Diagnosis | None = None
+    shown: Diagnosis | None = None
+    of_fit: bool = False
+    offered: bool = False
+
+
 def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
-    from thermodata.modelling.model_file.not_installed import as_stored, not_installed
+    from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
     from thermodata.modelling.versions.result import make_result
-    from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
     from thermodata.store.catalogue.findings import load_diagnosis
     from thermodata.store.catalogue.models import find_model, model_chain
 
@@ -39,22 +50,16 @@ def collect(store: Store, ref: str) -> ReportData:
     chain = model_chain(store, stored.model)
     loaded = load(store, stored.model, uncertainty=True, anew=True)
     diagnosis = load_diagnosis(store, stored.model)
-    earlier = [load_diagnosis(store, m.model) for m in chain[:-1]]
-    asked = _reason(earlier)
-    reason = None if asked is None else earlier[asked]
     responses = tuple(r.name for r in loaded.fitted.responses)
     units = chain_units(store, chain)
     last = versions(chain, units)[-1]
+    reason = _why_added(store, chain, loaded, removed_only=bool(last.removed and not last.added))
     # curves, scores and parameters are of one fit; what was kept may be of data that have changed since
     result = make_result(loaded.fitted, loaded.data, stored.model)
     lacking = {m.model: some for m in chain[:-1] if (some := not_installed(m.spec))}
-    told = tuple(as_stored(lacking[m.model], m.name) for m in chain if m.model in lacking)
-    for sentence in dict.fromkeys(told):
-        warnings.warn(f"an earlier version: {sentence}", stacklevel=2)
+    told = _told_as_stored(chain, lacking)
     scores = [m.result.scores if m.model in lacking else _scores_today(store, m, loaded) for m in chain[:-1]]
     scores.append(result.scores)
-    before = scores[-2] if len(chain) > 1 else stored.result.before or []
-    shown = None if last.removed and not last.added else reason
     conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
     return ReportData(
         model=stored.model,
@@ -68,26 +73,51 @@ def collect(store: Store, ref: str) -> ReportData:
         parameters=result.readable,
         scores=by_role(result.scores),
         checks=result.checks,
-        before=before,
+        before=scores[-2] if len(chain) > 1 else stored.result.before or [],
         tests=tuple(by_role(parts_of(loaded.fitted, loaded.data, conditions))),
         versions=versions(chain, units, scores),
         units=units,
         diagnosis=diagnosis,
-        reason=shown,
-        reason_of_fit=asked is not None
-        and reason is not None
-        and is_fit_with_claims(stored.spec, loaded.data, chain[asked].spec, reason),
-        offered=shown is not None
-        and asked is not None
-        and adds_what_was_offered(stored.spec, loaded.data, chain[asked].spec, shown),
-        weak=weak_spots_of(loaded, (reason, diagnosis)),
+        reason=reason.shown,
+        reason_of_fit=reason.of_fit,
+        offered=reason.offered,
+        weak=weak_spots_of(loaded, (reason.said, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, stored.spec.campaign_ids),
         first=() if chain[0].model in lacking else tuple(by_role(_first(store, chain, loaded))),
-        older=what_is_older(stored, loaded.data.data_version, diagnosis, shown),
+        older=what_is_older(stored, loaded.data.data_version, diagnosis, reason.shown),
         systems=tuple(see(loaded.fitted, loaded.data)),
-        as_stored=tuple(dict.fromkeys(told)),
+        as_stored=told,
     )
+
+
+def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, removed_only: bool) -> _Reason:
+    """removed_only: the last version takes effects out, which no answer is a reason for."""
+    from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
+    from thermodata.store.catalogue.findings import load_diagnosis
+
+    earlier = [load_diagnosis(store, m.model) for m in chain[:-1]]
+    asked = _reason(earlier)
+    said = None if asked is None else earlier[asked]
+    if asked is None or said is None:
+        return _Reason()
+    spec, before = chain[-1].spec, chain[asked].spec
+    return _Reason(
+        said,
+        None if removed_only else said,
+        is_fit_with_claims(spec, loaded.data, before, said),
+        not removed_only and adds_what_was_offered(spec, loaded.data, before, said),
+    )
+
+
+def _told_as_stored(chain: Sequence[StoredModel], lacking: Mapping[str, Any]) -> tuple[str, ...]:
+    """What is told, here and on the page, of versions whose effects are not installed. lacking: by their models."""
+    from thermodata.modelling.model_file.not_installed import as_stored
+
+    told = tuple(dict.fromkeys(as_stored(lacking[m.model], m.name) for m in chain if m.model in lacking))
+    for sentence in told:
+        warnings.warn(f"an earlier version: {sentence}", stacklevel=3)
+    return told
 
 
 def _refitted(store: Store, version: StoredModel, loaded: Loaded) -> tuple[FittedModel, Dataset]:
