@@ -1,0 +1,107 @@
+"""What a signal is by all files that have it: its names, units, values, and what their heads and legends say."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+from thermodata.draft.campaign.beside_others import coldest_in, in_fahrenheit
+from thermodata.draft.folder.legend import IN_LEGEND, TOLD_TOO
+from thermodata.draft.folder.one_signal import OneSignal
+from thermodata.draft.signals.guess import called, guess, told_of
+from thermodata.draft.signals.head_said import with_head, with_text
+from thermodata.draft.signals.other_units import unit_question
+from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
+from thermodata.draft.signals.standard_units import with_standard_unit
+from thermodata.draft.signals.values import Values, in_unit, joined
+from thermodata.plugin import Signal
+from thermodata.reader.text.preamble.units_said import HEAD
+from thermodata.reader.text.rows.quality_columns import STATE_OF
+
+
+@dataclass(frozen=True, slots=True)
+class _InFiles:
+    """A signal as each of its files has it. usual: the unit that most of them say; units, names: how often each is
+    said; by_path: its values in each, in the file's own unit; heads: what stands over it -> the files; own: file name
+    -> the signal there; values: of all files, in the usual unit, None where one lacks them."""
+
+    usual: str | None
+    units: Counter[str | None]
+    names: Counter[str]
+    by_path: dict[str, Values | None]
+    heads: dict[str, list[str]]
+    own: dict[str, Signal]
+    values: Values | None
+
+
+def _in_files(one: OneSignal) -> _InFiles:
+    units = Counter((one.of(f) or one.signal).unit for f in one.files)
+    found = _InFiles(units.most_common(1)[0][0], units, Counter(), {}, {}, {}, None)
+    values = None
+    for f in one.files:
+        own = one.of(f) or one.signal
+        found.by_path[str(f.path)] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, in_unit(found.by_path[str(f.path)], own.unit, found.usual))
+        found.names[own.properties.get("description", "")] += 1
+        found.own[f.path.name] = own
+        found.heads.setdefault(own.properties.get(HEAD, ""), []).append(f.path.name)
+    words_of_no_switch = one.signal.dtype == "str" and None in found.by_path.values()
+    return replace(found, values=None if words_of_no_switch else values)
+
+
+def said_of(one: OneSignal) -> tuple[Guess, str | None]:
+    """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
+    they call it beside its name."""
+    signal, files = one.signal, _in_files(one)
+    said = _by_name_and_values(signal, files)
+    where = signal.properties.get(IN_LEGEND)
+    only = next(iter(files.names)) if len(files.names) == 1 else ""
+    note = f"called '{only}' in {where or 'the file'}" if only else None
+    if any(files.heads):
+        said, note = with_head(said, signal, note, files.heads, files.values)
+    said = with_scale_asked(with_text(said, next(iter(files.own.values()), signal)), files.own or {"": signal})
+    if STATE_OF in signal.properties and said.quantity != "state":
+        return _as_state(said, signal.properties[STATE_OF], files.values), note
+    if len(files.units) > 1 and said.quantity:
+        names = ", ".join(f"{u or 'none'} ({n})" for u, n in files.units.most_common())
+        asked = f"unit: the files disagree: {names}; each file's own is taken"
+        return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
+    return _with_questions(one, said, files), note
+
+
+def _by_name_and_values(signal: Signal, files: _InFiles) -> Guess:
+    """By its name, unit, values and legend."""
+    name, told, where = called(signal), told_of(signal), signal.properties.get(IN_LEGEND)
+    # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
+    said = guess(name, files.usual, signal.dtype, None if signal.scaling else files.values, told)
+    if (scaled := as_scaled(files.values, files.own.values())) is not None:
+        # what values ask that are counts, the scale answers
+        said = min(said, guess(name, files.usual, signal.dtype, scaled, told), key=lambda g: len(g.questions))
+    said = with_standard_unit(replace(said, sure=False) if where else said, signal)
+    if TOLD_TOO in signal.properties and said.quantity:
+        asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
+        said = replace(said, questions=(*said.questions, asked))
+    return said
+
+
+def _as_state(said: Guess, of: str, values: Values | None) -> Guess:
+    """A column that tells the state of another one, by codes."""
+    asked = (
+        f"the state of '{of}'? ({range_text(values)}) which codes are bad is not known "
+        "here: all rows count; leave those out by the test's measuring, or by a window"
+    )
+    known = values is not None and values.low >= 0 and values.high <= 1  # on and off
+    as_state = replace(said, quantity="state", unit=None, instead_of=None, why_not=None, sure=False, basis=("name",))
+    return replace(as_state, questions=() if known else (asked,))
+
+
+def _with_questions(one: OneSignal, said: Guess, files: _InFiles) -> Guess:
+    """With what is asked of its unit, and of files that call it by other names."""
+    coldest = {str(f.path): coldest_in(f) for f in one.files} if said.quantity == "temperature" else None
+    unit = unit_question(said.quantity, files.by_path, coldest) if None in files.units else in_fahrenheit(said, one)
+    questions = [unit] if unit else []
+    if len(files.names) > 1 and said.quantity:
+        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in files.names.most_common())
+        questions.append(f"the same in all tests? the files call it {names}")
+    return replace(said, sure=False, questions=(*said.questions, *questions)) if questions else said
