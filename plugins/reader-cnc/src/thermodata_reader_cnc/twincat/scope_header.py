@@ -94,26 +94,9 @@ def filetime_ns(ticks: int, where: str) -> int:
 
 def read_header(lines: Sequence[str], where: str) -> Header:
     """The header of an export; FormatError for what is missing."""
-    start = next((m for line in lines[:20] if (m := START.match(line))), None)
-    if start is None:
-        raise FormatError(
-            "no start of the export",
-            where=where,
-            expected="'Starttime of export' and a FILETIME",
-            got=lines[1][:60] if len(lines) > 1 else "nothing",
-        )
+    start = _start(lines, where)
     end = next((m for line in lines[:20] if (m := _END.match(line))), None)
-    names_at = next((k for k, line in enumerate(lines[1:_MOST_LINES], 1) if _NAME.match(line)), None)
-    if names_at is None:
-        raise FormatError(
-            "no row of channel names",
-            where=where,
-            expected="a second row 'Name' between tabs or ';'",
-            got=lines[5][:60] if len(lines) > 5 else "nothing",
-        )
-    match = _NAME.match(lines[names_at])
-    assert match is not None
-    delimiter = match[1]
+    names_at, delimiter = _row_of_names(lines, where)
     rows, first = _rows(lines, names_at, delimiter)
     names = rows["name"]
     while names and not names[-1]:
@@ -126,6 +109,48 @@ def read_header(lines: Sequence[str], where: str) -> Header:
             expected="rows of numbers",
             got=lines[first][:60] if first < len(lines) else "the end of the file",
         )
+    width, groups = _width(body, names, delimiter, where), _groups(names, rows)
+    ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
+    return Header(
+        start_ns=filetime_ns(int(start[2]), where),
+        end_ns=None if end is None else filetime_ns(int(end[1]), where),
+        delimiter=delimiter,
+        decimal="," if delimiter != "," and any("," in line for line in body) else ".",
+        width=width,
+        first_row=first,
+        groups=groups,
+        ticks=ticks,
+        fastest_ms=_fastest(rows, names),
+    )
+
+
+def _start(lines: Sequence[str], where: str) -> re.Match[str]:
+    start = next((m for line in lines[:20] if (m := START.match(line))), None)
+    if start is None:
+        raise FormatError(
+            "no start of the export",
+            where=where,
+            expected="'Starttime of export' and a FILETIME",
+            got=lines[1][:60] if len(lines) > 1 else "nothing",
+        )
+    return start
+
+
+def _row_of_names(lines: Sequence[str], where: str) -> tuple[int, str]:
+    """(its place, what parts its cells)."""
+    found = next(((k, m[1]) for k, line in enumerate(lines[1:_MOST_LINES], 1) if (m := _NAME.match(line))), None)
+    if found is None:
+        raise FormatError(
+            "no row of channel names",
+            where=where,
+            expected="a second row 'Name' between tabs or ';'",
+            got=lines[5][:60] if len(lines) > 5 else "nothing",
+        )
+    return found
+
+
+def _width(body: Sequence[str], names: Sequence[str], delimiter: str, where: str) -> int:
+    """How many cells a row may have. body: its first rows of data."""
     widths = [line.count(delimiter) + 1 for line in body]
     width = max((w for w in widths if w <= len(names) + 1), default=0)
     if not width or (delimiter == "," and sum(w >= 2 * len(names) > 2 for w in widths) > len(widths) / 2):
@@ -143,20 +168,7 @@ def read_header(lines: Sequence[str], where: str) -> Header:
             expected=f"about {width} cells, as the first {len(body)} rows have",
             got=f"{len(names)} cells",
         )
-    decimal = "," if delimiter != "," and any("," in line for line in body) else "."
-    ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
-    groups = _groups(names, rows)
-    return Header(
-        filetime_ns(int(start[2]), where),
-        None if end is None else filetime_ns(int(end[1]), where),
-        delimiter,
-        decimal,
-        max(width, len(names)),
-        first,
-        groups,
-        ticks,
-        _fastest(rows, names),
-    )
+    return max(width, len(names))
 
 
 def _rows(lines: Sequence[str], names_at: int, delimiter: str) -> tuple[dict[str, list[str]], int]:
