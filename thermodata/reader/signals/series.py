@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Array, Block, Int1D, Loss, Signal
+from thermodata.plugin import Array, Block, Int1D, Signal
 from thermodata.reader.signals.interleaved import Parting, series_columns, words_of
 from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
 from thermodata.reader.signals.unit_words import holds_units
@@ -168,50 +168,17 @@ class Series:
         return {one: np.flatnonzero(names == one) for one in dict.fromkeys(names.tolist())}
 
 
-_THINGS = ("row", "value")
+@dataclass(frozen=True, slots=True)
+class Called:
+    """How a reader calls a series: stream_of: its stream by its name; named: its signals by its name and theirs; taken:
+    streams that others have."""
+
+    stream_of: Callable[[str], str] = str
+    named: Named = slash
+    taken: Collection[str] = ()
 
 
-@dataclass(slots=True)
-class TakenApart:
-    """Takes the blocks of one stream apart; counts what its first look did not meet."""
-
-    series: Series
-    where: str
-    unmet: dict[str, int] = field(default_factory=dict)
-    foreign: dict[tuple[str, str], int] = field(default_factory=dict)
-
-    def split(self, item: Block | Loss) -> Iterator[Block | Loss]:
-        """The blocks of each series in a block of the stream; all else as it is."""
-        if isinstance(item, Loss) or item.stream != self.series.stream:
-            yield item
-            return
-        for one, rows in self.series.rows(item).items():
-            if one not in self.series.held:
-                self._count(f"row of '{one}'" if one else "row of no series", rows.size)
-                continue
-            held = self.series.held[one]
-            own, rows, foreign = self.series.in_its_unit(one, item, rows)
-            for word, count in foreign.items():
-                self.foreign[one, word] = self.foreign.get((one, word), 0) + count
-            values = {self.series.named(one, k): v[rows] for k, v in own.values.items() if k in held}
-            flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
-            at = None if item.at is None else item.at[rows]
-            yield Block(self.series.streams[one], item.t_ns[rows], values, flags or None, at)
-            for k, v in item.values.items():
-                if k not in held and k not in self.series.tags and (n := int(_full(v[rows], item, k, rows).sum())):
-                    self._count(f"value of '{self.series.named(one, k)}'", n)
-
-    def rest(self) -> Iterator[Loss]:
-        """What was counted."""
-        yield from (Loss(self.where, reason=self.series.not_in_its_unit(*k, n)) for k, n in self.foreign.items())
-        for what, count in self.unmet.items():
-            things, _, whose = what.partition(" ")
-            told = f"{counted(count, things)} {whose}" if things in _THINGS else f"{count} {what}"
-            yield Loss(self.where, reason=f"{told}, which the first look at the file did not meet")
-
-    def _count(self, what: str, count: int) -> None:
-        what = what if what in self.unmet or len(self.unmet) < 20 else "rows or values of others"
-        self.unmet[what] = self.unmet.get(what, 0) + count
+PLAINLY = Called()
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,14 +195,11 @@ def find_series(
     absolute: bool,
     declared: Declaration,
     pieces: Int1D | None = None,
-    taken: Collection[str] = (),
-    stream_of: Callable[[str], str] = str,
-    named: Named = slash,
+    called: Called = PLAINLY,
     kept: Collection[str] = (),
 ) -> Found:
-    """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; taken: streams
-    that others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not
-    in the block."""
+    """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; kept: signals
+    that each series has, though they are not in the block."""
     parting = declared.parting(block, absolute, pieces)
     doubts = tuple(declared.doubts(parting))
     if not parting.tags:
@@ -246,15 +210,16 @@ def find_series(
     streams: dict[str, str] = {}
     for one in dict.fromkeys(names.tolist()):
         rows = np.flatnonzero(names == one)
-        some = frozenset(k for k, v in block.values.items() if k not in tags and _full(v[rows], block, k, rows).any())
+        some = frozenset(k for k, v in block.values.items() if k not in tags and full(v[rows], block, k, rows).any())
         if not one or not some:
             continue
-        stream = stream_of(one)
-        while stream in taken or stream in streams.values():
+        stream = called.stream_of(one)
+        while stream in called.taken or stream in streams.values():
             stream += "#2"
         held[one], streams[one] = some | frozenset(kept), stream
     if len(held) < (2 if declared.columns is None else 1):
         return Found(None, doubts)
+    named = called.named
     made = Series(block.stream, tags, held, streams, named, _units(block, names, held, tags))
     own = made.note() if declared.columns else f"{made.note()}; {declared.declined()}"
     units = (replace(u, column=named(one, u.column), of=named(one, u.of)).note() for one, u in made.units.items())
@@ -288,7 +253,7 @@ def _names(block: Block, tags: Sequence[str]) -> list[str]:
     return ["/".join(row) if all(row) else "" for row in rows]
 
 
-def _full(values: Array, block: Block, name: str, rows: Int1D) -> Array:
+def full(values: Array, block: Block, name: str, rows: Int1D) -> Array:
     """Which of some rows of a signal hold a value."""
     if values.dtype.kind == "f":
         return ~np.isnan(values)

@@ -14,7 +14,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.signals.row_units import UNIT_OF
-from thermodata.reader.signals.series import TakenApart
+from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.named_values import all_in_columns
 from thermodata.reader.text.cells.quotes import clean

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.signals.series import SERIES, Declaration, find_series
+from thermodata.reader.signals.series import SERIES, Called, Declaration, find_series
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook_sheet import Stream
@@ -26,8 +26,7 @@ def taken_apart(
         first,
         absolute=stream.times.absolute,
         declared=declared if sheet is None else declared.within(stream.values, f"{sheet}/"),
-        stream_of=str if sheet is None else partial(_named, "", stream.name),
-        named=named,
+        called=Called(str if sheet is None else partial(_named, "", stream.name), named),
     )
     series = found.series
     if series is None:

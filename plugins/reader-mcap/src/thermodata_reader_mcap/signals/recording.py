@@ -10,7 +10,7 @@ from threading import Lock
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.signals.by_place import BY_PLACE
-from thermodata.reader.signals.series import TakenApart
+from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata_reader_mcap.container.mapped_file import opened
 from thermodata_reader_mcap.container.messages import collect_messages

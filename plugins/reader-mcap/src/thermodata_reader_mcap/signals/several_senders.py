@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block
-from thermodata.reader.signals.series import Declaration, Found, find_series
+from thermodata.reader.signals.series import Called, Declaration, Found, find_series
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS
@@ -55,9 +55,7 @@ def senders(
         absolute=True,
         declared=mine,
         pieces=np.array(pieces, np.int64)[order],
-        taken=taken,
-        stream_of=lambda one: f"{topic.name}/{one}",
-        named=partial(_named, topic.name),
+        called=Called(lambda one: f"{topic.name}/{one}", partial(_named, topic.name), taken),
         kept={*times, *({leaf.name for leaf in topic.leaves} - set(values))},
     )
 

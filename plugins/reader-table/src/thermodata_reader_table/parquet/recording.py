@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
 from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn
-from thermodata.reader.signals.series import TakenApart
+from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.times.zone import NAT
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at, unit_in_rows
