@@ -13,7 +13,7 @@ from thermodata.errors import FormatError, PluginError
 from thermodata.plugin import Block, Head, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described, guarded
 from thermodata.reader.contract.locate import locate
-from thermodata.reader.finding.preview import beginning_of
+from thermodata.reader.finding.preview import begin
 
 GOOD = Block("s", np.arange(2, dtype=np.int64), {"a": np.zeros(2)})
 BAD = Block("s", np.arange(2, dtype=np.int64), {"a": np.zeros(3)})
@@ -104,7 +104,7 @@ def test_a_reader_that_would_end_the_process_is_a_plugins_bug_and_ctrl_c_is_none
     with pytest.raises(PluginError, match=r"(?s)failed to locate a row\nwhere: x stream 's' row 7\ngot: SystemExit: 4"):
         locate(Scripted(), Path("x"), Source(), "s", 7)
     with pytest.raises(PluginError, match=r"(?s)failed to begin a file.*SystemExit: 5"):
-        beginning_of(Scripted(), tmp_path, Source())
+        begin(Scripted(), tmp_path, Source())
     with pytest.raises(KeyboardInterrupt):
         run(Fake(GOOD, KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):

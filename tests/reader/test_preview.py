@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
-from thermodata.reader.finding.preview import preview
+from thermodata.reader.finding.preview import Until, preview
 
 S = 1_000_000_000
 START = np.datetime64("2026-03-01T08:00:00", "ns").astype(np.int64).item()
@@ -52,16 +52,16 @@ def test_preview_says_start_rate_gaps_and_first_rows(tmp_path: Path) -> None:
 def test_a_small_file_is_read_whole_however_long_it_takes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "x.log"
     path.write_bytes(b"x")
-    assert preview(path, reader=Fake(), most_s=0.0)["whole"]
+    assert preview(path, reader=Fake(), until=Until(most_s=0.0))["whole"]
     monkeypatch.setattr("thermodata.reader.finding.preview._SMALL", 0)
-    assert not preview(path, reader=Fake(), most_s=0.0)["whole"]
+    assert not preview(path, reader=Fake(), until=Until(most_s=0.0))["whole"]
 
 
 def test_preview_of_a_large_file_reads_a_part_and_says_so(tmp_path: Path) -> None:
     path = tmp_path / "x.log"
     path.write_bytes(b"x")
     seen: list[int] = []
-    part = preview(path, reader=Fake(), most_rows=6, rows=1, watch=lambda block: seen.append(block.t_ns.size))
+    part = preview(path, reader=Fake(), until=Until(1, most_rows=6), watch=lambda block: seen.append(block.t_ns.size))
     assert (part["rows_read"], part["whole"], seen) == (8, False, [4, 4])
     assert len(part["streams"][0]["first_rows"]) == 1
     whole = preview(path, reader=Fake())

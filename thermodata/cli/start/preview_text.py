@@ -17,18 +17,17 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     campaign: a campaign file, or None: the one found beside the file, where it names the file. A declared time zone and
     reader stand over the campaign's.
     """
-    from thermodata.reader.contract.guard import described
-    from thermodata.reader.finding.preview import beginning_of, preview
+    from thermodata.reader.finding.preview import Until, begin, preview
     from thermodata.reader.finding.registry import reader, sniff
 
     meant, source, chosen = _declared(file, campaign)
     chosen = reader(name) if name else chosen
     if timezone is not None:
         source = Source(source.name, timezone, source.encoding, source.table, source.topics, source.options)
-    chosen, whole = beginning_of(chosen or sniff(file), file, source)
-    recording = described(chosen, file, source)
+    begun = begin(chosen or sniff(file), file, source)
+    chosen, recording = begun.reader, begun.recording
     watch = Watch(len({s.stream for s in recording.signals}) or 1)
-    found = preview(file, source, chosen, rows=rows, watch=watch, recording=recording, beginning=not whole)
+    found = preview(file, source, until=Until(rows), watch=watch, begun=begun)
     absolute = found["clock"] == "absolute"
     by_stream: dict[str, list[Signal]] = {}
     for each in recording.signals:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,23 +20,42 @@ MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seco
 _SMALL = 4_000_000  # bytes; a smaller file is read whole, however busy the machine is
 
 
+@dataclass(frozen=True, slots=True)
+class Until:
+    """first_rows: of a stream, that are shown; most_rows, most_s: after which a large file is read no more."""
+
+    first_rows: int = FIRST_ROWS
+    most_rows: int = MOST_ROWS
+    most_s: float = MOST_S
+
+
+A_LOOK = Until()
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """Who reads a file for a look at it, and what it says of it. whole: whether that is all of it, and not its first
+    rows alone."""
+
+    reader: Reader
+    recording: Recording
+    whole: bool
+
+
 def preview(
     path: Path | str,
     source: Source | None = None,
     reader: Reader | None = None,
     *,
-    rows: int = FIRST_ROWS,
-    most_rows: int = MOST_ROWS,
-    most_s: float = MOST_S,
+    until: Until = A_LOOK,
     watch: Callable[[Block], None] | None = None,
-    recording: Recording | None = None,
-    beginning: bool = False,
+    begun: Begun | None = None,
 ) -> dict[str, Any]:
     """A file as plain data, ready for JSON. reader: which one (default: the one that claims the file).
 
-    rows: first rows a stream; most_rows, most_s: where reading ends in a large file ('whole' is False then, and what is
-    said of rows, gaps and losses holds for the part that was read); watch: sees every block that is read; recording:
-    what describe() said, where the caller has it already; beginning: whether the reader reads the first rows alone.
+    until: where reading ends in a large file ('whole' is False then, and what is said of rows, gaps and losses holds
+    for the part that was read); watch: sees every block that is read; begun: who reads it and what that says, where the
+    caller has it already, in place of `reader`.
 
     Keys: file, size_bytes, reader, reason, clock, timezone, start, complete, whole, rows_read, notes, losses, and
     streams, each with stream, rows, start, end, duration_s, step_s, rate_hz, gaps, largest_step_s, backward, repeated,
@@ -44,12 +64,10 @@ def preview(
     """
     path = Path(path)
     source = source or Source()
-    chosen, whole = reader if reader is not None else sniff(path), not beginning
-    if recording is None:
-        chosen, whole = beginning_of(chosen, path, source)
-    said = described(chosen, path, source) if recording is None else recording
+    begun = begun or begin(reader if reader is not None else sniff(path), path, source)
+    chosen, said, whole = begun.reader, begun.recording, begun.whole
     absolute = said.clock == "absolute"
-    seen = Seen(said, rows)
+    seen = Seen(said, until.first_rows)
     began = time.monotonic()
     hurried = size_of(path) > _SMALL
     for item in guarded(chosen, path, source, said):
@@ -59,7 +77,7 @@ def preview(
         seen.add(item)
         if watch is not None:
             watch(item)
-        if seen.rows >= most_rows or (hurried and time.monotonic() - began > most_s):
+        if seen.rows >= until.most_rows or (hurried and time.monotonic() - began > until.most_s):
             whole = False
             break
     return {
@@ -76,14 +94,14 @@ def preview(
     }
 
 
-def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bool]:
-    """(who reads a file for a look at it, whether that is all of it): the first rows alone where the reader can do that
-    and the file is large. FormatError for what is no file."""
+def begin(reader: Reader, path: Path, source: Source) -> Begun:
+    """The first rows alone where the reader can do that and the file is large. FormatError for what is no file."""
     refuse_what_never_ends(path)
-    begin = getattr(reader, "beginning", None)
+    beginning = getattr(reader, "beginning", None)
     with asking(f"reader '{reader.name}' failed to begin a file", str(path)), held_for(reader, path) as real:
-        first: Reader | None = None if begin is None else begin(real, source)
-    return (reader, True) if first is None else (first, False)
+        first: Reader | None = None if beginning is None else beginning(real, source)
+    chosen = reader if first is None else first
+    return Begun(chosen, described(chosen, path, source), whole=first is None)
 
 
-__all__ = ["FIRST_ROWS", "MOST_ROWS", "MOST_S", "preview"]
+__all__ = ["FIRST_ROWS", "MOST_ROWS", "MOST_S", "Begun", "Until", "begin", "preview"]
