@@ -15,7 +15,7 @@ from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote
 from thermodata.store.ingest.known.state import version_of
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.raw_layer import RawIngest
-from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
+from thermodata.store.ingest.tidy_layer import Making, TidyLayer, tidy_tests
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan.plan import bind
 from thermodata.store.tidy.values.calibrations import evaluate
@@ -76,5 +76,6 @@ def make_layers(files: CampaignFiles, inventory: Inventory, left: LeftAlone, now
     plans = [raw.plan(test) for test in campaign.tests if test.id not in left.tests]
     for plan in plans:
         bind(plan)
-    tidy = tidy_tests(store, campaign, plans, calibrations, inventory, now, files.watch.say, left)
+    making = Making(store, calibrations, inventory, now, files.watch.say)
+    tidy = tidy_tests(making, campaign, plans, left)
     return Layers(files, left, raw, jumps, calibrations, problems, tidy)

@@ -68,16 +68,19 @@ class _Tidied:
     events: dict[Member, list[Row]] = field(default_factory=dict)
 
 
-def tidy_tests(
-    store: Path,
-    campaign: Campaign,
-    plans: Sequence[TestPlan],
-    calibrations: Mapping[str, CalibrationResult],
-    inventory: Inventory,
-    now: datetime,
-    say: Callable[[str], None],
-    left: LeftAlone,
-) -> TidyLayer:
+@dataclass(frozen=True, slots=True)
+class Making:
+    """What the streams of an ingest are made with. store: its folder; inventory: what that holds; now: of the ingest;
+    say: tells how far it is."""
+
+    store: Path
+    calibrations: Mapping[str, CalibrationResult]
+    inventory: Inventory
+    now: datetime
+    say: Callable[[str], None]
+
+
+def tidy_tests(making: Making, campaign: Campaign, plans: Sequence[TestPlan], left: LeftAlone) -> TidyLayer:
     """Tidies every stream of every planned test that isn't there under its content key.
 
     A sensor that failed between two tests, and a foreign part, show only once all are tidied; the streams that they
@@ -87,13 +90,11 @@ def tidy_tests(
     layer = TidyLayer(tests={p.test.id: _begun(p) for p in plans})
     known = {t.id: layer.tests.get(t.id) or left.tests[t.id] for t in campaign.tests}
     left.hold_beside(layer.tests)
-    tidier = _Tidier(
-        store, _columns(campaign, known), calibrations, inventory, now, say, layer, ChannelTexts(calibrations)
-    )
+    tidier = _Tidier(making, _columns(campaign, known), layer, ChannelTexts(making.calibrations))
     clocks = {name: note.own_clocks() for name, note in left.tests.items()}
     for plan in plans:
         with _loss_where_it_fails(layer, plan):
-            own = clocks[plan.test.id] = clocks_of(store, plan, calibrations, inventory.clocks)
+            own = clocks[plan.test.id] = clocks_of(making.store, plan, making.calibrations, making.inventory.clocks)
             layer.tests[plan.test.id].clocks = estimated(own)
     clocks = lent(clocks, {name: note.dated for name, note in known.items()})
     tidied: dict[str, _Tidied] = {}
@@ -110,11 +111,11 @@ def tidy_tests(
         if test is not None:
             with _loss_where_it_fails(layer, plan):
                 tidier.mark(test, found.get(plan.test.id, Verdict()))
-                _add_rows(layer, test, calibrations, now)
+                _add_rows(layer, test, making)
                 _note_courses(note, test)
                 _note_verdicts(note, test)
-                tell_jumps_inside(plan, test.where, test.clocks, calibrations)
-            tell_unscaled(store, plan)
+                tell_jumps_inside(plan, test.where, test.clocks, making.calibrations)
+            tell_unscaled(making.store, plan)
             note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         note.notes += plan.notes
@@ -188,12 +189,8 @@ def _columns(campaign: Campaign, tests: Mapping[str, TestNote]) -> dict[Member, 
 
 @dataclass(frozen=True, slots=True)
 class _Tidier:
-    store: Path
+    making: Making
     columns: Mapping[Member, Columns]
-    calibrations: Mapping[str, CalibrationResult]
-    inventory: Inventory
-    now: datetime
-    say: Callable[[str], None]
     layer: TidyLayer
     texts: ChannelTexts
 
@@ -206,12 +203,12 @@ class _Tidier:
             if member[0] == SCHEDULE and not any(s.raws for s in plan.sources.values()):
                 continue
             base = self._base(test, member)
-            kept = self.inventory.tidy(plan.test.id, base)
-            if kept and all(_kept_alive(os.path.join(self.store, row["path"]), row["bytes"]) for row in kept):
+            kept = self.making.inventory.tidy(plan.test.id, base)
+            if kept and all(_kept_alive(os.path.join(self.making.store, row["path"]), row["bytes"]) for row in kept):
                 test.files[member] = kept
                 test.events[member] = [
                     r
-                    for r in self.inventory.rows["quality_event"].get(plan.test.id, [])
+                    for r in self.making.inventory.rows["quality_event"].get(plan.test.id, [])
                     if (r["source"], r["stream"]) == member
                 ]
             else:
@@ -229,14 +226,14 @@ class _Tidier:
                 self._write(test, series, member, self._base(test, member), wanted)
 
     def _series(self, test: _Tidied) -> TestSeries:
-        return TestSeries(self.store, test.plan, test.clocks, test.where, self.calibrations)
+        return TestSeries(self.making.store, test.plan, test.clocks, test.where, self.making.calibrations)
 
     def _base(self, test: _Tidied, member: Member) -> str:
         return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.texts)
 
     def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, verdict: Verdict) -> None:
         name, campaign = test.plan.test.id, test.plan.campaign.id
-        self.say(f"{name}: {member[0]}/{member[1]}")
+        self.making.say(f"{name}: {member[0]}/{member[1]}")
         said = verdict.to_json()
         key = key_of(base, json.dumps(said, sort_keys=True)) if said else base
         result = write_member(series, member, self.columns[member], key, verdict)
@@ -245,23 +242,23 @@ class _Tidier:
             test.files[member] = test.events[member] = []
             return
         self.layer.new_streams += 1
-        test.files[member] = tidy_rows(campaign, name, member, result, self.store, self.now, base, said)
+        test.files[member] = tidy_rows(campaign, name, member, result, self.making.store, self.making.now, base, said)
         test.events[member] = [
             {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
             for e in result.events
         ]
 
 
-def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, CalibrationResult], now: datetime) -> None:
+def _add_rows(layer: TidyLayer, tidied: _Tidied, making: Making) -> None:
     """The catalogue's rows of a test."""
     plan, clocks, test = tidied.plan, tidied.clocks, tidied.plan.test.id
-    files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
+    files = [*catalogue_rows.raw_rows(plan, making.now), *(r for rows in tidied.files.values() for r in rows)]
     note = layer.tests[test]
     for rows in tidied.files.values():
         count(note, rows, test)
     for row in files:
         # the same clock for all of one ingest, and for a kept file the moment at which it was made
-        row.setdefault("added_at", now)
+        row.setdefault("added_at", making.now)
     _add(layer, test, "file", files)
     _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
     lasts_s = duration_s(plan, files)
@@ -269,7 +266,7 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     note.notes += beyond_the_end(plan.test, lasts_s, step_s(files))
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
-    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
+    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, making.calibrations))
     note.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
     note.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
     note.losses += [
@@ -292,4 +289,4 @@ def _add(layer: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
     layer.rows[table][test] = rows
 
 
-__all__ = ["TidyLayer", "tidy_tests"]
+__all__ = ["Making", "TidyLayer", "tidy_tests"]
