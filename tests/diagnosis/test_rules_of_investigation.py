@@ -16,6 +16,7 @@ from thermodata.diagnosis.question.known_effects import otherwise, owners, remem
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict import investigate as investigating
 from thermodata.diagnosis.verdict import on_locked as locking
+from thermodata.diagnosis.verdict.inquiry import Given, Inquiry
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged
 from thermodata.diagnosis.verdict.selection import Member, Selection
@@ -173,7 +174,7 @@ class TestJudged:
             "Refinement",
             lambda fitted, problem, noise: lambda s: "kin" if s.candidate.effect.name in refined else None,
         )
-        return investigate(fitted, data, fitted_tests(data), effects(), **more)
+        return investigate(Inquiry(fitted, data, fitted_tests(data), effects()), Given(**more))
 
     def test_the_measure_is_that_of_the_response(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel

@@ -18,7 +18,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_gains,
     wrong_parameters,
 )
-from thermodata.diagnosis.verdict.investigate import gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.faults import gains_are_wrong_only_where_nothing_is_missing
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.diagnosis import Artefact

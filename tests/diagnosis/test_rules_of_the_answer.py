@@ -164,7 +164,7 @@ class TestAnswer:
         monkeypatch.setattr(case, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
         monkeypatch.setattr(case, "beside_slips", lambda found, _: found)
         without = replace(found, on_open=nothing("unknown"))
-        monkeypatch.setattr(case, "investigate", lambda *a, refused, **k: without if refused else found)
+        monkeypatch.setattr(case, "investigate", lambda _, given, *__: without if given.refused else found)
         monkeypatch.setattr(concluding, "confirm", confirm)
         monkeypatch.setattr(case, "Fits", Fits)
         monkeypatch.setattr(concluding, "left_with_named", lambda *_: None)

@@ -34,7 +34,8 @@ BESIDE = {
     "evidence.py": ("the_noise",),
     "foretold.py": ("the_locked_tests",),
     "heat_balance.py": ("clocks_by_heat",),
-    "investigate.py": ("investigation", "logging_faults"),
+    "investigate.py": ("investigation",),
+    "faults.py": ("logging_faults",),
     "judge.py": ("the_verdict", "a_claim"),
     "kin.py": ("candidates",),
     "known.py": ("the_noise",),
@@ -704,7 +705,7 @@ MUTANTS = [
         "investigate.py", "error_of(asked_about, tests)", "error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),
     diagnosis(
-        "investigate.py",
+        "faults.py",
         'faults if judgement.verdict == "none" and at_floor else',
         "faults if True else",
         "a missing effect passes as a wrong gain",

@@ -15,6 +15,7 @@ from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.diagnosis.question.responses import response_index
 from thermodata.diagnosis.sensors.loose import loose_sensors
 from thermodata.diagnosis.sound import Sound, beside_slips, sound
+from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -59,21 +60,18 @@ class Case:
         self, locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
     ) -> Investigation:
         """The open tests beside some locked ones. faults: found since. refused: channels that are asked no more."""
+        beside = self.beside
         return investigate(
-            self.beside.fitted.responses[self.index],
-            self.data,
-            self.tests,
-            self.library,
-            self.seed,
-            as_fitted=self.response,
-            locked=locked,
-            # a second look asks so much of the locked tests that no other axis decides
-            others=None if refused else OtherAxes(self.sound.spec, self.response.name, self.data, self.library),
-            known_faults=(*self.faults, *faults),
-            refused=refused,
-            fine=self.beside.fine,
-            steps=self.beside.steps,
-            means=self.beside.means,
+            Inquiry(beside.fitted.responses[self.index], self.data, self.tests, self.library, self.seed),
+            Given(
+                as_fitted=self.response,
+                locked=locked,
+                # a second look asks so much of the locked tests that no other axis decides
+                others=None if refused else OtherAxes(self.sound.spec, self.response.name, self.data, self.library),
+                known_faults=(*self.faults, *faults),
+                refused=refused,
+            ),
+            Prepared(beside.fine, beside.steps, beside.means),
         )
 
     def fits(self, locked: Sequence[TestData]) -> Fits:

@@ -14,23 +14,17 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.at_rest import AtRest, at_rest
 from thermodata.diagnosis.claims.detection import Limit, limits
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.other_axes import OtherAxes
 from thermodata.diagnosis.claims.probability import at_best, limit_of, may_be_borne_out
 from thermodata.diagnosis.claims.refinement import Refinement
 from thermodata.diagnosis.claims.rules import failed_rules
-from thermodata.diagnosis.clocks.by_commands import timings
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed, error_of
 from thermodata.diagnosis.question.known import Known, known, rms
 from thermodata.diagnosis.question.known_effects import owners, remembered
-from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.question.weak import weak_spots
 from thermodata.diagnosis.sensors.logging_faults import (
-    clock_offsets,
-    clocks_beside,
     faulty_sensors,
     first_of_each,
-    wrong_gains,
     wrong_parameters,
 )
 from thermodata.diagnosis.steps import repeating
@@ -38,6 +32,8 @@ from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.steps.of_model import steps_of_model
 from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.verdict.asked import of_library
+from thermodata.diagnosis.verdict.faults import faults_of_logs, gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -50,7 +46,7 @@ from thermodata.diagnosis.weigh.null import best_of_chance
 from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.plugin import Effect, Int1D
+from thermodata.plugin import Int1D
 from thermodata.schema.answers.diagnosis import Artefact, WeakSpot
 from thermodata.view.grid.dataset import Dataset, TestData
 
@@ -83,73 +79,37 @@ class Investigation:
     told: Mapping[int, tuple[Scored, bool]] = field(default_factory=dict)
 
 
-def investigate(
-    fitted: FittedResponse,
-    data: Dataset,
-    tests: Sequence[TestData],
-    library: Mapping[str, Effect],
-    seed: int = 0,
-    *,
-    as_fitted: FittedResponse | None = None,
-    locked: Sequence[TestData] = (),
-    others: OtherAxes | None = None,
-    known_faults: Sequence[Artefact] = (),
-    refused: frozenset[str] = frozenset(),
-    fine: Problem | None = None,
-    steps: Sequence[Step] | None = None,
-    means: Means | None = None,
-) -> Investigation:
-    """fitted: to all tests that take part in the choice. as_fitted: the model that is asked about, whose weak spots are
-    shown; by default the same. others: what other axes say; None: nothing. known_faults: mended before, or left out.
-    refused: channels; what reads these alone is not asked. fine, steps, means: made for other questions (`Sound`)."""
-    info = data.channels[fitted.name]
+def investigate(inquiry: Inquiry, given: Given | None = None, prepared: Prepared | None = None) -> Investigation:
+    """given: what is known and asked beside it; prepared: what was made for other questions."""
+    given = Given() if given is None else given
+    prepared = Prepared() if prepared is None else prepared
+    fitted, data, tests, means = inquiry.fitted, inquiry.data, inquiry.tests, prepared.means
     base = remembered(fitted)
-    fine = compressed(fitted, data, tests, TARGET_ROWS, base) if fine is None else fine
-    means = {} if means is None else means
-    found = find_steps(fine) if steps is None else list(steps)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base) if prepared.fine is None else prepared.fine
+    found = find_steps(fine) if prepared.steps is None else list(prepared.steps)
     single = repeating.single(found)
-    faults = _faults(fitted, data, fine, base)
+    faults = faults_of_logs(fitted, data, fine, base)
     whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
     problem = sharing(_without_steps(fitted, whole, single, fine.step_s), means)
-    asked = of_library(fitted, data, tests, library, fine)
-    weighed = {b.test.key for b in problem.blocks}
-    among = [t for t in tests if t.key in weighed]
-    by_condition = gains_by_condition(fitted, among, data.tests)
-    asked += [c for c in by_condition if c.unforetold is None]
-    asked += heating_and_cooling_apart(fitted, among, data.tests)
-    asked = [c for c in asked if not (refused and refused.issuperset(c.channels))]
+    asked, unforetold = _candidates(inquiry, problem, fine, given.refused)
 
     def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
-        return causes_of(response, data, among, library, seed, means)
+        return causes_of(replace(inquiry, fitted=response, tests=among), means)
 
-    witness = None if others is None else partial(others.say, causes=causes)
-
-    @cache
-    def with_locked() -> Problem:
-        blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
-        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
-        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
-
-    lock = Lock(with_locked, len(problem.blocks))
+    witness = None if given.others is None else partial(given.others.say, causes=causes)
+    lock = Lock(_with_locked(inquiry, given.locked, problem, base), len(problem.blocks))
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness, lock)
+        selection, judgement, measure = _judged(fitted, problem, asked, inquiry.seed, witness, lock)
         unseen = () if selection is None else _limits(fitted, problem, selection, measure)
-        selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
-    asked_about = fitted if as_fitted is None else as_fitted
+        selection = _with_unforetold(problem, selection, unforetold)
+    asked_about = fitted if given.as_fitted is None else given.as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     at_floor = selection is not None and selection.left <= measure.floor
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
     if selection is not None and not single:  # a slip is in the fit of the model, and in its error
         faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
-    of_steps = as_artefacts(single, info.unit, found)
-    of_steps += repeating.as_artefacts(repeating.repeating(found), info.unit)
-    artefacts = [
-        *first_of_each([*known_faults, *of_steps, *faults]),
-        *faulty_sensors(
-            data, fitted.name, {n for term in fitted.terms for t in data.tests for n in term.bound.reads(t)}
-        ),
-    ]
+    artefacts = _artefacts(inquiry, given.known_faults, found, faults)
 
     def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
         return None if selection is None else lock.foretold(selection, judgement, claim, others)
@@ -163,19 +123,52 @@ def investigate(
     return Investigation(problem, selection, artefacts, spots, *said)
 
 
-def causes_of(
-    fitted: FittedResponse,
-    data: Dataset,
-    tests: Sequence[TestData],
-    library: Mapping[str, Effect],
-    seed: int,
-    means: Means,
-) -> list[Scored]:
+def _candidates(
+    inquiry: Inquiry, problem: Problem, fine: Problem, refused: frozenset[str]
+) -> tuple[list[CandidateEffect], list[CandidateEffect]]:
+    """(what is asked, what no test foretells)."""
+    fitted, tests = inquiry.fitted, inquiry.tests
+    asked = of_library(fitted, inquiry.data, tests, inquiry.library, fine)
+    there = {b.test.key for b in problem.blocks}
+    among = [t for t in tests if t.key in there]
+    by_condition = gains_by_condition(fitted, among, inquiry.data.tests)
+    asked += [c for c in by_condition if c.unforetold is None]
+    asked += heating_and_cooling_apart(fitted, among, inquiry.data.tests)
+    asked = [c for c in asked if not (refused and refused.issuperset(c.channels))]
+    return asked, [c for c in by_condition if c.unforetold]
+
+
+def _with_locked(inquiry: Inquiry, locked: Sequence[TestData], problem: Problem, base: Base) -> Callable[[], Problem]:
+    """What makes the problem with locked tests beside the open ones, once, where it is asked for."""
+
+    @cache
+    def with_locked() -> Problem:
+        every = [*inquiry.tests, *locked]
+        blocks = compressed(inquiry.fitted, inquiry.data, every, WEIGHED_ROWS, base).blocks if locked else ()
+        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
+
+    return with_locked
+
+
+def _artefacts(
+    inquiry: Inquiry, known_faults: Sequence[Artefact], steps: Sequence[Step], faults: Sequence[Artefact]
+) -> list[Artefact]:
+    """What the logs have that no machine does: each fault once, those of steps, and sensors."""
+    fitted, data = inquiry.fitted, inquiry.data
+    unit = data.channels[fitted.name].unit
+    of_steps = as_artefacts(repeating.single(steps), unit, steps)
+    of_steps += repeating.as_artefacts(repeating.repeating(steps), unit)
+    read = {n for term in fitted.terms for t in data.tests for n in term.bound.reads(t)}
+    return [*first_of_each([*known_faults, *of_steps, *faults]), *faulty_sensors(data, fitted.name, read)]
+
+
+def causes_of(inquiry: Inquiry, means: Means) -> list[Scored]:
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
-    problem, fine = weighed(fitted, data, tests)
+    problem, fine = weighed(inquiry.fitted, inquiry.data, inquiry.tests)
     problem = sharing(problem, means)
-    asked = of_library(fitted, data, tests, library, fine)
-    _, judgement, _ = _judged(fitted, problem, asked, seed)
+    asked = of_library(inquiry.fitted, inquiry.data, inquiry.tests, inquiry.library, fine)
+    _, judgement, _ = _judged(inquiry.fitted, problem, asked, inquiry.seed)
     return [j.scored for j in judgement.judged if j.refines is None]
 
 
@@ -278,22 +271,3 @@ def _with_unforetold(
     pool = [c for c in (columns(problem, one) for one in asked) if c is not None]
     more = rank_in(problem, pool, selection.first.known.space.noise)
     return replace(selection, first=replace(selection.first, ranked=(*selection.first.ranked, *more.ranked)))
-
-
-def gains_are_wrong_only_where_nothing_is_missing(
-    faults: list[Artefact], judgement: Judgement, at_floor: bool
-) -> list[Artefact]:
-    """A missing effect also makes one test larger or smaller than the others say, and so does what lags leave.
-    at_floor: whether the model leaves no more than is left alone."""
-    return faults if judgement.verdict == "none" and at_floor else [f for f in faults if f.kind != "gain"]
-
-
-def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:
-    """Clocks, where nothing acts at once, and gains of probes, where there is a model to hold them against."""
-    if not problem.blocks or not problem.blocks[0].base.shape[1]:
-        return []
-    drivers = {n for one in present(fitted) for n in one.channels}
-    told = timings(problem, data.channels).told
-    sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
-    warm = {n for n in sources if data.channels[n].quantity == "temperature"}
-    return [*clock_offsets(problem, base, sources, warm), *wrong_gains(problem)]
