@@ -93,7 +93,7 @@ def test_text_can_be_read(look: str) -> None:
 
 
 def test_every_flag_has_a_colour() -> None:
-    names = {f"flag-{str(f.name).lower().replace('_', '-')}" for f in Flag if f}
+    names = {f"flag-{f.word.replace('_', '-')}" for f in Flag if f}
     assert names <= set(LOOKS["light"])
 
 

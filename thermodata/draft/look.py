@@ -158,9 +158,7 @@ def flagged(
             inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
     flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
     for name, column in flags.items():
-        told[name]["flags"] = {
-            f.name.lower(): n for f in Flag if f.name and (n := int(((column & np.uint16(f)) != 0).sum()))
-        }
+        told[name]["flags"] = {f.word: n for f in Flag if f and (n := int(((column & np.uint16(f)) != 0).sum()))}
     listed = [
         {
             "signal": e.channel,

@@ -57,7 +57,7 @@ def _stream(content: Content, stream: Stream) -> dict[str, Any]:
 def flag_bits() -> str:
     from thermodata.schema.flag import Flag
 
-    return ", ".join(f"{int(f)} {f.name.lower().replace('_', ' ')}" for f in Flag if f.name and int(f))
+    return ", ".join(f"{int(f)} {f.word.replace('_', ' ')}" for f in Flag if f)
 
 
 def _safe(name: str) -> str:

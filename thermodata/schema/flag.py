@@ -23,6 +23,11 @@ class Flag(IntFlag):
     RATE_CHANGE = 2048  # the first sample at another rate
     FOREIGN = 4096  # of another recording: after a pause nearly every channel lies elsewhere
 
+    @property
+    def word(self) -> str:
+        """As events, tables and answers name it: 'out_of_range'."""
+        return str(self.name).lower()
+
 
 # A sample with any of these does not count in means, fits and scores. A gap marks the first sample after it
 # (a good value), an interpolated value and a rate change are information only.

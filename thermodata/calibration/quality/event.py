@@ -24,14 +24,9 @@ class QualityEvent:
     detail: str = ""
 
 
-def word_of(flag: Flag) -> str:
-    """A flag as events name it."""
-    return str(flag.name).lower()
-
-
 def event_of(channel: str, flag: Flag, t_ns: Int1D, start: int, stop: int, detail: str) -> QualityEvent:
     """The event of rows [start, stop). t_ns: shape (n,)."""
-    return QualityEvent(channel, word_of(flag), int(t_ns[start]), int(t_ns[stop - 1]), stop - start, detail)
+    return QualityEvent(channel, flag.word, int(t_ns[start]), int(t_ns[stop - 1]), stop - start, detail)
 
 
 def events_of(channel: str, flag: Flag, hit: Bool1D, t_ns: Int1D, detail: str) -> list[QualityEvent]:
@@ -45,7 +40,7 @@ def events_of(channel: str, flag: Flag, hit: Bool1D, t_ns: Int1D, detail: str) -
         a, b = int(starts[MOST_EVENTS - 1]), int(stops[-1])
         rest = int((stops - starts)[MOST_EVENTS - 1 :].sum())
         further = f"{len(starts) - MOST_EVENTS + 1} further stretches"
-        events.append(QualityEvent(channel, word_of(flag), int(t_ns[a]), int(t_ns[b - 1]), rest, further))
+        events.append(QualityEvent(channel, flag.word, int(t_ns[a]), int(t_ns[b - 1]), rest, further))
     return events
 
 

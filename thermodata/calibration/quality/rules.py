@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.calibration.quality.column import Marked
 from thermodata.calibration.quality.edges import without_pauses
-from thermodata.calibration.quality.event import QualityEvent, word_of
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
 from thermodata.calibration.quality.limit import NO_VALUE, SAY_RANGE, clipped, impossible, no_values, sentinels
 from thermodata.calibration.quality.spike import spikes
@@ -162,7 +162,7 @@ def leaves_for_a_few_samples(seen: Marked) -> None:
         "'measuring'"
     )
     first, last = int(t_ns[where[0]]), int(t_ns[where[-1]])
-    seen.events.append(QualityEvent(seen.name, word_of(Flag.SPIKE), first, last, len(where), why))
+    seen.events.append(QualityEvent(seen.name, Flag.SPIKE.word, first, last, len(where), why))
 
 
 def steps_and_stays(seen: Marked) -> None:

@@ -179,4 +179,4 @@ def _losses(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 def flag_names(flags: int) -> list[str]:
     """The names of the flags in a mask, lower case."""
-    return [str(f.name).lower() for f in Flag if f and flags & f]
+    return [f.word for f in Flag if f and flags & f]

@@ -173,7 +173,7 @@ def _marks(trace: Trace, hours: Float1D) -> Marks:
 
 def flag_colour(severity: int) -> str:
     """The colour's name of the flag at this place of SEVERITY."""
-    return f"flag-{str(SEVERITY[severity].name).lower().replace('_', '-')}"
+    return f"flag-{SEVERITY[severity].word.replace('_', '-')}"
 
 
 def worst_flag(flags: Array) -> Array:

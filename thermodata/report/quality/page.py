@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from thermodata.view import StoreView
 
 _MOST_EVENTS = 40
-_WORST_FIRST = [str(f.name).lower() for f in reversed(SEVERITY)]
-_INFORMATION = {str(f.name).lower() for f in Flag if f and not f & INVALID}
+_WORST_FIRST = [f.word for f in reversed(SEVERITY)]
+_INFORMATION = {f.word for f in Flag if f and not f & INVALID}
 
 
 def build_quality_report(view: StoreView, campaign: str | None, out: Path | str) -> Path:
@@ -134,7 +134,7 @@ def _names(trace: Trace) -> set[str]:
     import numpy as np
 
     seen = int(np.bitwise_or.reduce(trace.flags)) if len(trace.flags) else 0
-    return {str(f.name).lower() for f in Flag if f and seen & f}
+    return {f.word for f in Flag if f and seen & f}
 
 
 def _shown(test: TestQuality, key: str) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def find_sample(
     flags = row.pop("flags_set")
     sample = row | {
         "t": str(np.datetime64(row["t_ns"], "ns")) + "Z" if not series.span.relative else None,
-        "flags": [str(f.name).lower() for f in Flag if f and flags & f],
+        "flags": [f.word for f in Flag if f and flags & f],
         "raw": None,
     }
     bound = series.plan.bound.get(channel["channel"])

@@ -18,7 +18,7 @@ _FAILED = ("offset", "stuck")
 _THROUGHOUT = 1 - 1e-9
 # events that say nothing against a sensor: a blank between the rows of a slower logger is no loss
 _NO_FAULT = (OVERRULED, "only while not measuring", "not flagged", "no number")
-_COUNTS_NOT = frozenset(str(f.name).lower() for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
+_COUNTS_NOT = frozenset(f.word for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
 
 
 @dataclass(slots=True)

@@ -44,7 +44,7 @@ def not_measured(store: Store, campaign: str | None = None, test: str | None = N
                 "source": source,
                 "stream": None,
                 "channel": channel,
-                "flag": str(Flag.NOT_MEASURING.name).lower(),
+                "flag": Flag.NOT_MEASURING.word,
                 "from_s": from_s,
                 "to_s": to_s,
                 "n": n,

@@ -25,7 +25,7 @@ _ORDER: dict[Sort, str] = {
     "valid": "valid nulls last, campaign, place",
 }
 # what ran while the test did not measure is no defect of it: saturation there is counted with 'not measuring'
-_RULED_OUT = ", ".join(f"'{flag.name.lower()}'" for flag in Flag if flag.name and flag & INVALID)
+_RULED_OUT = ", ".join(f"'{flag.word}'" for flag in Flag if flag & INVALID)
 _TESTS = f"""
 with counted as (
     select campaign, test, cast(columns->>'$.samples' as bigint) as samples,

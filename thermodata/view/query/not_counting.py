@@ -21,7 +21,7 @@ _OF_VIEW = {
     "driver": f"c.quantity not in {MEASURED}",
 }
 _WORDS = re.compile(r"'(?:[^']|'')*'|\w+")
-_NOT_COUNTING = tuple(str(f.name).lower() for f in Flag if f & INVALID)
+_NOT_COUNTING = tuple(f.word for f in Flag if f & INVALID)
 
 
 def values_that_do_not_count(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:

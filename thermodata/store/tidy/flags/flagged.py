@@ -233,7 +233,7 @@ class Flagged:
                 own = columns[name].flags
                 self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
                 for flag in Flag(int(DOUBTED)):
-                    times = self._repeats.setdefault((name, str(flag.name).lower()), Activity())
+                    times = self._repeats.setdefault((name, flag.word), Activity())
                     times.add(chunk.t_ns, mask & ((own & np.uint16(flag)) != 0))
                 columns[name].flags = own | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
             yield chunk.start, chunk.t_ns, columns

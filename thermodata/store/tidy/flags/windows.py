@@ -28,7 +28,7 @@ MARGIN_ROWS = 4096  # of the neighbours, on both sides
 MOST_COLUMNS = 200  # columns that are judged together
 _STANDS = np.uint16(Flag.HELD | Flag.STUCK)
 _OFFSET = np.uint16(Flag.OFFSET)
-_BY_NAME = {str(f.name).lower(): np.uint16(f) for f in Flag if f}
+_BY_NAME = {f.word: np.uint16(f) for f in Flag if f}
 
 
 @dataclass(slots=True)
@@ -151,7 +151,7 @@ def _continued(
             events.append(
                 QualityEvent(
                     name,
-                    str(flag.name).lower(),
+                    flag.word,
                     int(t_ns[start - 1]),
                     int(t_ns[stop - 1]),
                     stop - start + 1,
