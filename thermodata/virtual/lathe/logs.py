@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.errors import UsageError
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.store.base.counting import counted
 from thermodata.virtual.lathe.data import model_of
@@ -20,6 +19,7 @@ from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import AXES, World, make_world
+from thermodata.virtual.new_folder import new_folder
 
 LOGGERS = ("plc", "logger", "hall", "probes")
 
@@ -40,14 +40,7 @@ def simulate_lathe(
     """
     import yaml
 
-    folder = Path(folder)
-    if (folder / "campaign.yaml").exists():
-        raise UsageError(
-            "the folder holds a campaign",
-            where=str(folder),
-            expected="a new or empty folder",
-            hint="name another folder",
-        )
+    folder = new_folder(folder)
     world = make_world(stratum, seed, hours=hours, tests=tests, hide=hide)
     (folder / "raw").mkdir(parents=True, exist_ok=True)
     (folder / "truth").mkdir(exist_ok=True)
