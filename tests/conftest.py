@@ -6,7 +6,23 @@ from collections.abc import Iterator
 
 import pytest
 
+from thermodata.cli import main
+
 from .chromium import Chromium, find
+from .commands import Said, Say
+
+
+@pytest.fixture
+def say(capsys: pytest.CaptureFixture[str]) -> Say:
+    """Runs a command in this process."""
+
+    def run(*words: object) -> Said:
+        capsys.readouterr()
+        code = main([str(w) for w in words])
+        out, err = capsys.readouterr()
+        return Said(code, out, err)
+
+    return run
 
 
 @pytest.fixture(scope="session")

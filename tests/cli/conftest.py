@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,26 +9,7 @@ import pytest
 
 from thermodata.cli import main
 
-
-@dataclass(frozen=True)
-class Said:
-    code: int
-    out: str
-    err: str
-
-
-@pytest.fixture
-def say(capsys: pytest.CaptureFixture[str]) -> Callable[..., Said]:
-    """Runs a command in this process."""
-
-    def run(*words: object) -> Said:
-        capsys.readouterr()
-        code = main([str(w) for w in words])
-        out, err = capsys.readouterr()
-        return Said(code, out, err)
-
-    return run
-
+from ..commands import Said, Say
 
 CAMPAIGN = """
 schema: thermodata/campaign/1
@@ -113,3 +93,15 @@ def own(made_campaign: Path, tmp_path: Path) -> Path:
     """A copy for one test."""
     shutil.copytree(made_campaign, tmp_path / "own")
     return tmp_path / "own"
+
+
+@pytest.fixture
+def ask(say: Say, campaign: Path) -> Say:
+    """Runs a command on the campaign's store; it must succeed."""
+
+    def run(*words: object) -> Said:
+        said = say("--store", campaign / "thermodata.store", *words)
+        assert said.code == 0, said.err
+        return said
+
+    return run

@@ -15,7 +15,8 @@ from thermodata.cli import main
 from thermodata.cli.app import cli
 from thermodata.view import StoreView
 
-from .conftest import Said, write_campaign
+from ..commands import Said
+from .conftest import write_campaign
 
 
 @pytest.fixture(scope="session")

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 CAMPAIGN = """
 schema: thermodata/campaign/1

@@ -18,9 +18,9 @@ from thermodata.store.catalogue.findings import save_findings
 from thermodata.store.catalogue.models import find_model
 from thermodata.view.lists.events import about_test
 
-from .conftest import Said, write_campaign
+from ..commands import Said, Say
+from .conftest import write_campaign
 
-Say = Callable[..., Said]
 CONTRACT = {
     "demo",
     "init",

@@ -20,9 +20,8 @@ from thermodata.cli import main
 from thermodata.modelling.run import load
 from thermodata.store import Store
 
-from .conftest import Said, write_campaign
-
-Say = Callable[..., Said]
+from ..commands import Said, Say
+from .conftest import write_campaign
 
 
 @pytest.fixture(scope="module")
@@ -39,18 +38,6 @@ def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for words in (["ingest", path], ["fit", folder / "baseline.yaml"]):
         assert main(["--store", str(folder / "thermodata.store"), *map(str, words), "--json"]) == 0
     return folder
-
-
-@pytest.fixture
-def ask(say: Say, campaign: Path) -> Say:
-    """Runs a command on the campaign's store; it must succeed."""
-
-    def run(*words: object) -> Said:
-        said = say("--store", campaign / "thermodata.store", *words)
-        assert said.code == 0, said.err
-        return said
-
-    return run
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +15,8 @@ from thermodata.errors import UsageError
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.virtual import Truth
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 KEYS = {
     "hidden",
     "found",

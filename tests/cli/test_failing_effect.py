@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +17,8 @@ from thermodata.errors import EffectError
 from thermodata.plugin import Drivers, Effect, Float2D, Gain, Need
 from thermodata.store import Store
 
-from .conftest import MODEL, Said
-
-Say = Callable[..., Said]
+from ..commands import Say
+from .conftest import MODEL
 
 
 class Failing:

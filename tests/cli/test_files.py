@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +11,8 @@ import pytest
 
 from thermodata.reader.finding import registry
 
-from .conftest import Said, write_campaign
-
-Say = Callable[..., Said]
+from ..commands import Say
+from .conftest import write_campaign
 
 
 def csv(path: Path, rows: int = 200, gap: bool = False) -> Path:

@@ -12,7 +12,8 @@ import pytest
 
 from thermodata.cli import main
 
-from .conftest import CAMPAIGN, MODEL, Said, lag
+from ..commands import Said
+from .conftest import CAMPAIGN, MODEL, lag
 
 GROWTH = {"D25": 3.0, "D63": 1.8, "D100": 0.9}  # um/K of the bearing, by tool
 TOOLS = ["D25", "D63", "D100", "D25", "D63", "D100", "D63"]

@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,9 +15,8 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.catalogue.findings import keep_answer
 
-from .conftest import Said, write_campaign
-
-Say = Callable[..., Said]
+from ..commands import Say
+from .conftest import write_campaign
 
 
 def test_a_colleagues_campaign_of_the_same_id_is_refused_or_replaced_on_demand(

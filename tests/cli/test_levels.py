@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import Said
+from ..commands import Said
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,10 +15,9 @@ import pytest
 from thermodata.cli.keep.new_plugin import checkout, with_member
 from thermodata.errors import UsageError
 
-from .conftest import Said
+from ..commands import Say
 
 ROOT = Path(__file__).parents[2]
-Say = Callable[..., Said]
 
 
 @pytest.fixture

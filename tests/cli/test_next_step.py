@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from .conftest import Said, write_campaign
-
-Say = Callable[..., Said]
+from ..commands import Say
+from .conftest import write_campaign
 
 
 def test_after_nothing_was_read_no_model_is_proposed(say: Say, tmp_path: Path) -> None:

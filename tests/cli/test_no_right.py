@@ -14,7 +14,7 @@ import pytest
 
 from thermodata.cli.terminal.common import known_failure
 
-from .conftest import Said
+from ..commands import Said
 
 
 @pytest.fixture

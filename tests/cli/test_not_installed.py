@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,9 +14,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.model_file import make_effect, not_installed
 from thermodata.store import Store
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.fixture

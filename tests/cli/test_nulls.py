@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from .conftest import Said
+from ..commands import Said
 
 
 def empty(value: Any, place: str = "") -> Iterator[str]:

@@ -1,16 +1,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import jsonschema
 import pytest
 import yaml
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 PUBLISHED = Path(__file__).parents[2] / "schemas"
 
 CAMPAIGN = """

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def test_an_effect_is_shown_with_all_that_it_states(say: Say) -> None:

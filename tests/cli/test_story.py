@@ -16,51 +16,9 @@ import pytest
 
 import thermodata
 
-from .conftest import TESTS, Said, lag, write_campaign
-
-Say = Callable[..., Said]
-SCORE = {
-    "model",
-    "campaign",
-    "test",
-    "role",
-    "response",
-    "phase",
-    "fit",
-    "rmse_um",
-    "ptp_um",
-    "ptp_residual_um",
-    "max_um",
-    "n",
-}
-FIT = {
-    "model",
-    "name",
-    "parent",
-    "campaigns",
-    "response",
-    "parameters",
-    "scores",
-    "checks",
-    "before",
-    "added",
-    "notes",
-    "lost",
-    "locked_rmse_um_before",
-    "locked_rmse_um_after",
-}
-
-
-@pytest.fixture
-def ask(say: Say, campaign: Path) -> Say:
-    """Runs a command on the campaign's store; it must succeed."""
-
-    def run(*words: object) -> Said:
-        said = say("--store", campaign / "thermodata.store", *words)
-        assert said.code == 0, said.err
-        return said
-
-    return run
+from ..commands import Say
+from ..keys import DIAGNOSIS, FIT, SCORE
+from .conftest import TESTS, lag, write_campaign
 
 
 @pytest.fixture
@@ -313,38 +271,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, own: Path, tmp_path: Path) ->
     store = own / "thermodata.store"
     base = json.loads(say("--store", store, "history", "baseline", "--json").out)[0]["model"]
     found = json.loads(say("--store", store, "diagnose", base, "--json").out)
-    assert set(found) == {
-        "model",
-        "response",
-        "verdict",
-        "noise_um",
-        "noise_over_s",
-        "left_out_over_s",
-        "chance",
-        "responses",
-        "by_choice",
-        "not_asked",
-        "started_on",
-        "named_rmse_um",
-        "modelled_rmse_um",
-        "locked_shape_um",
-        "rmse_um",
-        "fitted_rmse_um",
-        "locked_rmse_um",
-        "explainable",
-        "explainable_by",
-        "weak_spots",
-        "candidates",
-        "artefacts",
-        "put_right",
-        "unknown",
-        "next_test",
-        "response_um",
-        "limits",
-        "at_rest",
-        "stale",
-        "data_version",
-    }
+    assert set(found) == DIAGNOSIS
     assert found["verdict"] == "effect"
     first = found["candidates"][0]
     assert (first["effect"], first["claimed"]) == ("feed_screw", True)

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import Said, write_campaign
+from ..commands import Said
+from .conftest import write_campaign
 
 
 @pytest.mark.parametrize("columns", ["80", "200"])

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import MODEL, Said
+from ..commands import Said
+from .conftest import MODEL
 
 
 @pytest.mark.parametrize("text", [None, MODEL, "schema: thermodata/campaign/1\nid: c\ntests: []\n"])

@@ -13,9 +13,8 @@ import pytest
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 BEGAN = datetime(2026, 3, 2, 8)
 ROWS = 60
 

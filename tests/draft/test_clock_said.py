@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.draft.folder.clock_said import offset_of
 
-from .conftest import Said
+from ..commands import Said
 
 
 @pytest.mark.parametrize(

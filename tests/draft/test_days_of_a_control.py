@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -10,9 +9,8 @@ import pytest
 
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 MIDNIGHT = datetime(2026, 3, 2, tzinfo=UTC)
 MORNING, NOON = 7 * 60 + 4, 13 * 60 + 4  # when the tests of a day begin, by the control's clock [min]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -12,9 +12,7 @@ from thermodata.draft.signals.guess import called
 from thermodata.plugin import Signal
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def hioki(path: Path, comments: Sequence[str], day: int) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 _ROWS = "".join(f"2026/03/02 08:{k // 60:02d}:{k % 60:02d},0.{k % 90:02d},20.{k % 9},22.0\n" for k in range(200))
 _JAPANESE = "日時,①変位Z(μm),②主軸前部軸受温度(℃),№3 室温(℃)\n"
 _UNTOLD = "日時,桜(μm),吹雪(℃),春眠不覚暁処処聞啼鳥(℃)\n"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +14,7 @@ from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.reader.finding import registry
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 class _Breaking:

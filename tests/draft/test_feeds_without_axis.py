@@ -3,7 +3,6 @@ none in which nothing moves."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +12,8 @@ from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 from .labs import numbers, text
-
-Say = Callable[..., Said]
 
 
 @pytest.mark.parametrize(

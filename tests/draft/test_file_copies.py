@@ -12,7 +12,7 @@ import pytest
 from thermodata.draft.folder.file_copies import beginnings_in, copies_in
 from thermodata.draft.make import draft_files
 
-from .conftest import Said
+from ..commands import Said
 
 LOG = "time [s];T_front [degC]\n" + "".join(f"{i};{20 + i / 10:.1f}\n" for i in range(60))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +12,9 @@ from thermodata.draft.writing.baseline import model_text_of
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign, load_model
 
-from .conftest import Said
+from ..commands import Say
 from .folders import FOLDERS, Folder
 
-Say = Callable[..., Said]
 MOST_ANSWERS = 3
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -14,10 +13,9 @@ from thermodata.draft.files.sample import Sample
 from thermodata.draft.files.sheets import recordings_in
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 from .labs import tdms, workbook
 
-Say = Callable[..., Said]
 BEGAN = datetime(2026, 3, 2, 8, tzinfo=UTC)
 S = 1_000_000_000
 

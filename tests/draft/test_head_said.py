@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +13,7 @@ from thermodata.draft.signals.head_said import with_text
 from thermodata.draft.signals.values import values_of
 from thermodata.plugin import Signal
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.mark.parametrize(

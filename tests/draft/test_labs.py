@@ -16,7 +16,7 @@ from thermodata.draft.folder.scan import scan
 from thermodata.draft.writing.write import text_of
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Said
 from .labs import LABS, Lab
 
 

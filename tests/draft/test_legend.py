@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
 
-from .conftest import Said
+from ..commands import Say
 from .labs import workbook
 
-Say = Callable[..., Said]
 LEGEND = [("Kanal", "Messstelle", "Einheit"), ("T01", "Spindellager vorn", "°C"), ("T02", "Maschinenbett", "°C")]
 LEGEND += [("T03", "Hallenluft", "°C")]
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +9,8 @@ import pytest
 
 from thermodata.draft.make import draft_files
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 HEAD = "time,T_bed_C,dZ_um"
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,9 +10,7 @@ from thermodata.draft.folder.table import find_table
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def listed(folder: Path, title: str, *values: str, more: str = "") -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +14,8 @@ from thermodata.draft.signals.values import values_of
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 N = 120
 WAVE = [f"{20 + i / 50:.2f}" for i in range(N)]
 

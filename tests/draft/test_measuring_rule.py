@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +10,8 @@ import pytest
 
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 from .labs import numbers, text
-
-Say = Callable[..., Said]
 
 
 def cycles(folder: Path, *, state: bool, rail: float | None = 1999.0, shift: int = 0) -> None:

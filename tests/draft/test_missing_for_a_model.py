@@ -3,7 +3,6 @@ than 'raw'."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,9 +10,7 @@ import pytest
 from thermodata.draft.make import first_model
 from thermodata.draft.writing.own_id import id_of
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def _logged(folder: Path, head: str) -> Path:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from .conftest import Said
+from ..commands import Said, Say
 
-Say = Callable[..., Said]
 _HEADER = ("Zeit", "T_Lager_vorn [°C]", "T_Lager_hinten [°C]")
 
 

@@ -3,7 +3,6 @@ file that goes on with it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,7 @@ from typing import Any
 import pytest
 import yaml
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def _drafted(folder: Path, say: Say, files: dict[str, tuple[float, float]], date: str = "") -> list[dict[str, Any]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +13,9 @@ import pytest
 
 from thermodata.schema.files.load import load_campaign, load_model
 
-from .conftest import Said
+from ..commands import Say
 from .labs import workbook
 
-Say = Callable[..., Said]
 ROWS = [(10 * i, 20 + 0.05 * i, 3000 if i < 60 else 0) for i in range(120)]
 HEADS = {"names": "Time T_front [degC] n [rpm]", "wide": "      Time    T_front [degC]   n [rpm]", "none": None}
 WAYS = {

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from thermodata.draft.make import draft_files
 
-from .conftest import Said
+from ..commands import Say
 from .labs import workbook
 
-Say = Callable[..., Said]
 SHEETS, FILES, JOINED = "a test each here", "a test each, or parts of one?", "was there a pause between them?"
 
 

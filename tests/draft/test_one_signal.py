@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +10,8 @@ import pytest
 
 from thermodata.draft.make import draft_files
 
-from .conftest import Said
+from ..commands import Say
 from .labs import numbers, text
-
-Say = Callable[..., Said]
 
 
 def logs(folder: Path, headers: Sequence[str], factors: Sequence[tuple[float, float]]) -> None:

@@ -27,9 +27,7 @@ from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.trace.lineage import trace
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def log(day: int, warm: float = 20.0) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,9 +10,7 @@ from thermodata.draft.courses.kinds import kind_of
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.words.said_by_names import said_by
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.mark.parametrize(

@@ -15,9 +15,8 @@ from thermodata.reader.files.rotated import age, unrotated
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 CAMPAIGN = """\
 schema: thermodata/campaign/1
 id: shop

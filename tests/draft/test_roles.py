@@ -10,7 +10,7 @@ import pytest
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.roles import said_by_list, said_by_name
 
-from .conftest import Said
+from ..commands import Said
 
 
 @pytest.mark.parametrize(

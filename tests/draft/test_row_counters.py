@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.mark.parametrize(("first", "every", "left_out"), [(1, 1, True), (0, 1, True), (1, 2, False), (5, 1, False)])

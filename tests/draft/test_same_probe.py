@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,9 @@ import yaml
 
 from thermodata.draft.make import draft_files
 
-from .conftest import Said
+from ..commands import Say
 from .labs import START, numbers, staircase, tdms, text, warm
 
-Say = Callable[..., Said]
 MOVES = "[50 um, 50 um, -100 um, -50 um, 50 um]"
 
 

@@ -16,9 +16,7 @@ from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.scale_said import with_scale_asked
 from thermodata.plugin import Scaling, Signal
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.mark.parametrize(

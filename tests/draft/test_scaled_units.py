@@ -13,9 +13,7 @@ from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import Values
 from thermodata.reader.text import split_unit
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 @pytest.mark.parametrize(

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from .conftest import Said
+from ..commands import Said, Say
 
-Say = Callable[..., Said]
 START = datetime(2026, 4, 17, 8)
 SENSORS = {"bearing_front": (22.0, 0.05), "hall": (20.0, 0.01), "probe_Z": (0.0, -0.3), "spindle_speed": (0.0, 25.0)}
 

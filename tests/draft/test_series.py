@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 
-Say = Callable[..., Said]
 N = 60
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 
-from .conftest import Said
-
-Say = Callable[..., Said]
+from ..commands import Say
 
 
 def _asked(folder: Path, say: Say, seconds: Sequence[int], values: Sequence[float] | None = None) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +11,8 @@ from thermodata.draft.signals.guess import guess
 from thermodata.draft.words.naming import parts_of
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 from .labs import numbers, text
-
-Say = Callable[..., Said]
 
 
 @pytest.mark.parametrize(

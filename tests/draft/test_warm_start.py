@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import datetime, timedelta
 from pathlib import Path
 
@@ -11,10 +10,8 @@ import pytest
 
 from thermodata.schema.files.load import load_campaign
 
-from .conftest import Said
+from ..commands import Say
 from .labs import numbers, text
-
-Say = Callable[..., Said]
 
 
 def lab(folder: Path, third_k: float, *, air: bool = True) -> Path:

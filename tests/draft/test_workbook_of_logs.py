@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
-from .conftest import Said
+from ..commands import Say
 from .labs import workbook
 
-Say = Callable[..., Said]
 Rows = list[list[object]]
 TESTS = ("warm3000", "warm9000", "night")
 PROTOCOL: Rows = [

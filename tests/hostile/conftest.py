@@ -11,32 +11,13 @@ import numpy as np
 import pytest
 import yaml
 
-from thermodata.cli import main
 from thermodata.plugin import Source
 from thermodata.reader import reader as named
 from thermodata.reader import sniff
 from thermodata.store import Store
 from thermodata.testing.reader import Data, load
 
-
-@dataclass(frozen=True)
-class Said:
-    code: int
-    out: str
-    err: str
-
-
-@pytest.fixture
-def say(capsys: pytest.CaptureFixture[str]) -> Callable[..., Said]:
-    """Runs a command in this process."""
-
-    def run(*words: object) -> Said:
-        capsys.readouterr()
-        code = main([str(w) for w in words])
-        out, err = capsys.readouterr()
-        return Said(code, out, err)
-
-    return run
+from ..commands import Said
 
 
 @dataclass(frozen=True)

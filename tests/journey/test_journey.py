@@ -22,70 +22,10 @@ import pytest
 from thermodata.cli import main
 from thermodata.virtual import Truth, simulate
 
-FIT = {
-    "model",
-    "name",
-    "parent",
-    "campaigns",
-    "response",
-    "parameters",
-    "scores",
-    "checks",
-    "before",
-    "added",
-    "notes",
-    "lost",
-    "locked_rmse_um_before",
-    "locked_rmse_um_after",
-}
+from ..keys import DIAGNOSIS, FIT, SCORE
+
 PARAMETER = {"value", "unit", "low", "high"}
-SCORE = {
-    "model",
-    "campaign",
-    "test",
-    "role",
-    "response",
-    "phase",
-    "fit",
-    "rmse_um",
-    "ptp_um",
-    "ptp_residual_um",
-    "max_um",
-    "n",
-}
 CHECK = {"name", "value", "threshold", "passed", "advice"}
-DIAGNOSIS = {
-    "model",
-    "response",
-    "verdict",
-    "noise_um",
-    "noise_over_s",
-    "left_out_over_s",
-    "chance",
-    "responses",
-    "by_choice",
-    "not_asked",
-    "started_on",
-    "named_rmse_um",
-    "modelled_rmse_um",
-    "locked_shape_um",
-    "rmse_um",
-    "fitted_rmse_um",
-    "locked_rmse_um",
-    "explainable",
-    "explainable_by",
-    "weak_spots",
-    "candidates",
-    "artefacts",
-    "put_right",
-    "unknown",
-    "next_test",
-    "response_um",
-    "limits",
-    "at_rest",
-    "stale",
-    "data_version",
-}
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {
     "as_modelled",

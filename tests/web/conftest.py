@@ -13,7 +13,6 @@ from thermodata.web.app import application
 from thermodata.web.desk import Desk, desk_of
 
 from ..cli.conftest import made_campaign as made_campaign
-from ..cli.conftest import say as say
 from .client import Client, Header
 
 PORT = 8423

@@ -13,7 +13,7 @@ from thermodata.web.app import application
 from thermodata.web.desk import Desk, Keys, desk_of
 from thermodata.web.serve import listen, ticket_address
 
-from ..cli.conftest import Said
+from ..commands import Said
 from .client import Client, Header
 from .conftest import PORT, client_of, headers_of, write_headers
 
