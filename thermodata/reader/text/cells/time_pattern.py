@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.clock_pattern import BLANK, CLOCK, HALF
 from thermodata.reader.text.cells.joined_clock import joined_clock
+from thermodata.reader.text.cells.julian_days import julian_ns
 from thermodata.reader.text.cells.zone_words import ZONE
 
 DAY_NS = 86_400 * 1_000_000_000
@@ -88,10 +89,15 @@ ELAPSED = _format(
 HOURS = _format("time", r"(?P<E>\d{1,5}):(?P<M>\d{2})", "HHH:MM", zone=False)
 MINUTES = _format("time", r"(?P<N>\d{1,5}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "MM:SS", zone=False)
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
+OFFSET_S = _format("offset", r"(?P<os>\d{1,9})(?:\.(?P<f>\d{1,9})\d*|\.)?", "seconds", zone=False)
+# of the years 2001 to 2099
+UNIX_S = _format("offset", r"(?P<os>[1-3]\d{9}|40\d{8})(?:\.(?P<f>\d{1,9})\d*)?", "seconds since 1970", zone=False)
 UNIX_MS = _format("offset", r"(?P<oms>\d{12,13})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds since 1970", zone=False)
 # by InfluxDB's precisions, which its exports count in
 UNIX_US = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{3})", "microseconds since 1970", zone=False)
 UNIX_NS = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{6})", "nanoseconds since 1970", zone=False)
+JULIAN = TimeFormat("offset", None, "Julian days", reads=julian_ns)
+SINCE_A_DAY = (UNIX_S, UNIX_MS, UNIX_US, UNIX_NS, JULIAN)  # of numbers that say the day and the hour, in UTC
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|millitm|毫秒)\b")  # the name of such a column
 PARTS_NS = {"ds": 10**8, "cs": 10**7, "ms": 10**6, "us": 10**3}  # by the group of the pattern

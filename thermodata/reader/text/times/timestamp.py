@@ -158,6 +158,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         return NAT
     if (part := next((name for name in PARTS_NS if g.get(name) is not None), None)) is not None:
         return int(g[part]) * PARTS_NS[part]
+    if g.get("os") is not None:
+        return int(g["os"]) * _S + int((g["f"] or "0").ljust(9, "0"))
     if g.get("oms") is not None:
         return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
@@ -228,6 +230,8 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     groups = match.groupdict()
     if (part := next((name for name in PARTS_NS if name in fields), None)) is not None:
         return fields[part] * PARTS_NS[part]
+    if "os" in fields:
+        return fields["os"] * _S + fields.get("f", np.zeros_like(fields["os"]))
     if "oms" in fields:
         return fields["oms"] * 1_000_000 + fields.get("of", np.zeros_like(fields["oms"]))
     size = next(iter(fields.values())).shape

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text.cells.time_pattern import OFFSET_MS, TimeFormat
+from thermodata.reader.text.cells.time_pattern import OFFSET_MS, OFFSET_S
 from thermodata.reader.text.file.lines import ODD, chunks, sample
 from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.mtconnect import time_series
-from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, Series, is_offset, is_time, looks_like_items
+from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, Series, is_time, looks_like_items
+from thermodata_reader_cnc.mtconnect.shdr_parts import ALIKE, names_columns, numbered_form, time_form, units_behind
 
 EXAMPLE = b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n"
 NO_UNITS = (
@@ -33,10 +35,11 @@ def claims(lines: Sequence[str]) -> str | None:
     dated = [p for p in parts if len(p) >= 3 and is_time(p[0])]
     if dated and len(dated) >= 0.3 * len(full) and (is_time(parts[0][0]) or not parts[0][0].strip()):
         return "SHDR: lines of time|item|value"
-    offset = [p for p in parts if is_offset(p[0]) and looks_like_items(p)]
-    if len(offset) >= 0.9 * len(full):
-        return "SHDR: lines of offset|item|value"
-    return None
+    items = [p for p in parts if looks_like_items(p)]
+    form = numbered_form([p[0] for p in items]) if len(items) >= ALIKE * len(full) else None
+    if form is None or names_columns(parts[0]):
+        return None
+    return "SHDR: lines of offset|item|value" if form == OFFSET_MS else f"lines of {form.text}|item|value"
 
 
 class _Look:
@@ -46,16 +49,22 @@ class _Look:
         first = sample(path, source.encoding, _LOOK)
         self.encoding, self.note, self.whole = first.encoding, first.note, first.ends_with_newline
         self.series: set[str] = set()
-        self.relative = not any(is_time(line.split("|", 1)[0]) for line in first.head if "|" in line)
-        self.form: TimeFormat = OFFSET_MS if self.relative else events.ISO
         cut = first.whole and not first.ends_with_newline
         head = first.head[:-1] if cut else first.head
+        parts = [line.split("|") for line in head if "|" in line]
+        self.form = time_form([p[0] for p in parts], source.table, path.name)
+        self.relative = self.form in (OFFSET_MS, OFFSET_S)
+        self.units = units_behind(parts)
         self.plan = events.plan(self._events(path.name, head, first.rest), form=self.form)
         self.head = first.head
 
+    def lines(self, name: str) -> Lines:
+        """What reads the lines of this log."""
+        return Lines(name, self.form, self.units)
+
     def _events(self, name: str, head: Iterable[str], rest: Iterable[str]) -> Iterator[Event | Loss]:
         for lines, pieces in ((head, False), (rest, True)):
-            reader = Lines(name)
+            reader = self.lines(name)
             reader.time = "x" if pieces else ""
             for number, line in enumerate(lines):
                 if pieces and "|" not in line[:40]:
@@ -77,12 +86,15 @@ def describe(path: Path, source: Source) -> Recording:
             expected="lines of time|item|value",
             got=repr(look.head[0][:60]) if look.head else "nothing",
         )
-    notes = [note for note in (look.note, NO_UNITS, time_series.NOTE if look.series else None) if note]
+    of_adapter = look.form in (events.ISO, OFFSET_MS) and not look.units
+    notes = [look.note, NO_UNITS if of_adapter else None, time_series.NOTE if look.series else None]
     if look.relative:
-        notes.append("times are relative to the adapter's start")
-    sent = {key: {"protocol": "SHDR"} for key in look.plan.items}
-    held = events.recording(look.plan, source, sent, complete=None if look.whole else False, notes=notes)
-    signals = (*held.signals, *(time_series.signal(key) for key in sorted(look.series)))
+        notes.append(f"times are relative to the adapter's start, in {look.form.text}")
+    sent = {key: {"protocol": "SHDR"} for key in look.plan.items if of_adapter}
+    complete = None if look.whole else False
+    held = events.recording(look.plan, source, sent, complete=complete, notes=filter(None, notes))
+    measured = (replace(s, unit=look.units.get(s.name)) for s in held.signals)
+    signals = (*measured, *(time_series.signal(key) for key in sorted(look.series)))
     return Recording(
         signals,
         "relative" if look.relative else "absolute",
@@ -101,7 +113,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         source,
         lambda event, reason: losses.some(event.key, Loss(event.where, reason=f"'{event.key}': {reason}")),
     )
-    reader, size = Lines(path.name), max(1, path.stat().st_size)
+    reader, size = look.lines(path.name), max(1, path.stat().st_size)
     for number, line in _lines(path, look.encoding):
         if isinstance(number, str):
             yield from losses.some("", Loss(number, reason=ODD))

@@ -1,23 +1,25 @@
 """Lines of SHDR as events, with the special forms of the MTConnect agent's adapter protocol.
 
-`time|item|value|item|value...`; `time@duration|...`; conditions `time|item|level|code|severity|qualifier|text`;
-messages `time|item|code|text`; time series `time|item|count|rate|values`; `@ASSET@` lines, also of several lines;
+`time|item|value|item|value...`; `time@duration|...`; `time|item|value|unit` of other loggers;
+conditions `time|item|level|code|severity|qualifier|text`; messages `time|item|code|text`;
+time series `time|item|count|rate|values`; `@ASSET@` lines, also of several lines;
 commands `* ...`.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from thermodata.plugin import Loss
-from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.time_pattern import OFFSET_MS, TimeFormat
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.events import GONE, ISO, Event
+from thermodata_reader_cnc.opcua.row_units import in_unit_of
 
 LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", GONE})
 _FIELD = re.compile(r'"((?:\\.|[^"\\])*)"(?=\||$)|([^|]*)')
@@ -42,9 +44,9 @@ def is_time(text: str) -> bool:
     return timestamp.parse_one(text.partition("@")[0], ISO) != NAT
 
 
-def is_offset(text: str) -> bool:
-    """Whether a first field is a time relative to the adapter's start (a number of milliseconds)."""
-    return timestamp.parse_one(text.partition("@")[0], time_pattern.OFFSET_MS) != NAT
+def is_offset(text: str, form: TimeFormat = OFFSET_MS) -> bool:
+    """Whether a first field is a time in numbers; without a form, milliseconds from the adapter's start."""
+    return timestamp.parse_one(text.partition("@")[0], form) != NAT
 
 
 def fields(text: str) -> list[str]:
@@ -67,10 +69,10 @@ def looks_like_items(parts: list[str]) -> bool:
 
 class Lines:
     """Lines to events, in order. Commands, comments and assets are no data. A line without a time takes that of the
-    line before it, flagged."""
+    line before it, flagged. form: of times that are numbers; units: of the items whose fourth field is a unit."""
 
-    def __init__(self, name: str) -> None:
-        self.part = f"{name} line"
+    def __init__(self, name: str, form: TimeFormat = OFFSET_MS, units: Mapping[str, str] | None = None) -> None:
+        self.part, self.form, self.units = f"{name} line", form, units or {}
         self.until: str | None = None
         self.opened = 0
         self.time = ""
@@ -89,7 +91,7 @@ class Lines:
             return
         parts = fields(text)
         flag = 0
-        if len(parts) < 2 or (parts[0].strip() and not is_time(parts[0]) and not is_offset(parts[0])):
+        if len(parts) < 2 or (parts[0].strip() and not is_time(parts[0]) and not is_offset(parts[0], self.form)):
             yield self._loss(at, f"expected time|item|value, got '{text[:80]}'")
             return
         time = parts[0].partition("@")[0].strip()
@@ -120,6 +122,14 @@ class Lines:
             if (rate is not None and rate >= 0) or not parts[3].strip():
                 yield Series(time, key, rate or None, parts[4], at, self.part)
                 return
+        if count == 4 and key in self.units:
+            value, wrong = in_unit_of(key, parts[2], parts[3].strip(), self.units)
+            yield (
+                self._loss(at, f"'{key}': a value {wrong}")
+                if wrong
+                else Event(time, key, value.strip() or GONE, at, self.part, flag)
+            )
+            return
         if count == 4:  # a message: item, native code, text
             yield Event(time, key, parts[3], at, self.part, flag)
             if parts[2].strip():

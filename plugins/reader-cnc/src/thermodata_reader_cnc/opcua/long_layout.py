@@ -125,7 +125,7 @@ def find_layout(
     """The layout by a header row among the first ten lines, or None. declared: the format of the times; later: further
     lines, by which columns that differ are known. FormatError: no order of day and month."""
     for row in range(len(lines[:10])):
-        for delimiter in (",", ";", "\t"):
+        for delimiter in (",", ";", "\t", "|"):
             found = _headed_by(row, delimiter, lines, where, declared, later)
             if found is not None:
                 return found

@@ -16,9 +16,7 @@ from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import (
     DATETIME,
-    UNIX_MS,
-    UNIX_NS,
-    UNIX_US,
+    SINCE_A_DAY,
     TimeFormat,
     declared_format,
     is_date_text,
@@ -29,14 +27,16 @@ from thermodata.reader.text.preamble.zone_places import place_in
 from thermodata.reader.text.tables.zone_named import named_note
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.text.times.timestamp import parse
+from thermodata.reader.text.times.timestamp import parse, parse_one
+from thermodata.reader.times.zone import NAT
 
 _KNOWN = (
     *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
     *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
 )
 _WORDED = re.compile(
-    r"(?:event|sampl(?:e|ing)|record(?:ed)?|log(?:ged)?|meas(?:ured?|urement)?|acq(?:uisition)?|read(?:ing)?|opc|plc|da|"
+    r"(?:unix|epoch)(?:s|sec|seconds|ms|millis)?|"
+    r"(?:unix|epoch|event|sampl(?:e|ing)|record(?:ed)?|log(?:ged)?|meas(?:ured?|urement)?|acq(?:uisition)?|read(?:ing)?|opc|plc|da|"
     r"device|value|data|tag|point|change|update|insert(?:ion)?|messzeit|erfassungs)?"
     r"(?:time|timestamp|timestring|datetime|datetimestamp|stamp|zeit|zeitpunkt|zeitstempel)|"
     r"messzeit|(?:record|logg|measur)edat|datumzeit|datumuhrzeit|dateheure|dataora|dataeora|datahora|fechahora|"
@@ -142,9 +142,9 @@ def _go_on(stamps: Sequence[str]) -> bool:
 
 def time_form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
     """How the times are written; None where they are no dates. FormatError: no order of day and month."""
-    for digits, form in ((r"\d{12,13}", UNIX_MS), (r"\d{16}", UNIX_US), (r"\d{19}", UNIX_NS)):
-        if stamps and all(re.fullmatch(digits, s) for s in stamps):
-            return form
+    counted = next((form for form in SINCE_A_DAY if all(parse_one(s, form) != NAT for s in stamps)), None)
+    if stamps and counted is not None:
+        return counted
     order = declared if declared in ("dmy", "mdy", "ymd") else None
     if declared and not order and "%" in declared:
         return declared_format(declared)
