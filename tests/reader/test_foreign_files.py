@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 import sqlite3
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -123,3 +125,76 @@ def test_the_nearest_texts_are_none_of_these(tmp_path: Path, text: str) -> None:
 def test_bytes_are_none(tmp_path: Path) -> None:
     (tmp_path / "x.dat").write_bytes(bytes(range(256)) * 20)
     assert explain(tmp_path / "x.dat").kind.startswith("binary; it starts with")
+
+
+def test_a_data_set_of_three_columns_becomes_three(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["t"], file["tcp"] = np.arange(5.0), np.arange(15.0).reshape(5, 3)
+    said = explain(tmp_path / "a.h5")
+    assert "attributes with units do not come with it: declare these" in said.kind
+    ran(tmp_path, said.kind, TIME="t", SIGNAL="tcp")
+    table = pq.read_table(tmp_path / "a.parquet")
+    assert table.column_names == ["t", "tcp_0", "tcp_1", "tcp_2"]
+    assert table["tcp_1"].to_pylist() == [1, 4, 7, 10, 13]
+
+
+@pytest.mark.parametrize("protocol", [2, 3, 4, 5])
+def test_a_pickle_is_never_opened(tmp_path: Path, protocol: int) -> None:
+    pytest.importorskip("pandas")
+    (tmp_path / "a.pkl").write_bytes(pickle.dumps({"t": [0.0, 1.0], "T": [20.0, 21.0]}, protocol))
+    said = explain(tmp_path / "a.pkl")
+    assert said.kind.startswith("a pickle of Python, which is never opened, for it runs what stands in it: where you")
+    assert said.advice is None
+    ran(tmp_path, said.kind)
+    assert pq.read_table(tmp_path / "a.parquet").column_names == ["t", "T"]
+
+
+def office(path: Path, **parts: str) -> Path:
+    with zipfile.ZipFile(path, "w") as file:
+        for name, text in parts.items():
+            file.writestr(name, text)
+    return path
+
+
+def test_a_sheet_of_another_office_and_a_document_are_named(tmp_path: Path) -> None:
+    ods = office(
+        tmp_path / "a.ods", mimetype="application/vnd.oasis.opendocument.spreadsheet", **{"content.xml": "<a/>"}
+    )
+    said = explain(ods)
+    assert (said.kind, said.claims, said.advice) == ("ODS: save it as XLSX", {}, None)
+    word = office(tmp_path / "a.docx", **{"[Content_Types].xml": "<a/>", "word/document.xml": "<a/>"})
+    said = explain(word)
+    assert (said.kind, said.claims) == ("a document of Word: save a table in it as XLSX or CSV", {})
+    book = office(tmp_path / "a.xlsx", **{"[Content_Types].xml": "<a/>", "xl/workbook.xml": "<a/>"})
+    assert list(explain(book).claims) == ["table"]
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "what"),
+    [
+        ("X.raw", b"|CF,2,1,1;|CK,1,3,1,1;", "FAMOS of imc: export it"),
+        (
+            "a.tdm",
+            b'<?xml version="1.0" encoding="UTF-8"?>\n<usi:tdm xmlns:usi="x">',
+            "the header of a TDM data set of NI",
+        ),
+        ("a.DAT", b"DIAEXTENDED  {@:ENGLISH\r\n", "the header of a DIAdem data set: save it as TDMS"),
+        ("a.BIN", bytes.fromhex("9413580200000c00") + b"catman test", "a binary file of catman: export it"),
+        ("a.mea", bytes.fromhex("711700000100000004000000"), "a binary file of an HBM amplifier (MEA): export it"),
+        ("a.dat", bytes.fromhex("006b000c00") + b"Q.brixx 101\0", "UDBF of Gantner: export it"),
+        ("b.dat", bytes.fromhex("01006b000c") + b"Q.brixx 101\0", "UDBF of Gantner: export it"),
+    ],
+)
+def test_files_of_measuring_systems_say_what_to_export(tmp_path: Path, name: str, start: bytes, what: str) -> None:
+    (tmp_path / name).write_bytes(start + bytes(range(256)) * 4 if name != "a.tdm" else start)
+    said = explain(tmp_path / name)
+    assert said.kind.startswith(what)
+    assert (said.claims, said.advice) == ({}, None)
+
+
+def test_json_with_paths_of_a_control_is_no_trace(tmp_path: Path) -> None:
+    signals = ", ".join(f'{{"Name": "/Channel/Spindle/x{k}", "Value": {k}}}' for k in range(9))
+    (tmp_path / "amw.json").write_text(f'{{"Header": {{"Version": "3"}},\n"Signals": [{signals}]}}\n')
+    said = explain(tmp_path / "amw.json")
+    assert (said.kind, said.claims) == ("JSON: export it as CSV", {})

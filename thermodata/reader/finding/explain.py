@@ -12,7 +12,7 @@ from thermodata.archive.packed_by import how_to_unpack, packed, packed_by
 from thermodata.errors import FormatError, ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.finding.foreign_files import foreign_file
+from thermodata.reader.finding.foreign_files import foreign_file, foreign_kind
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
 from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
@@ -25,7 +25,7 @@ _MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"TDSh", "the index of a TDMS file, which is never read: it may be stale"),
     (b"\x89MCAP", "MCAP"),
     (b"PAR1", "Parquet"),
-    (b"PK\x03\x04", "a ZIP file (XLSX, DOCX and others are)"),
+    (b"PK\x03\x04", "a ZIP file (XLSX and others are)"),
     (b"MATLAB 5.0", "MAT 5 of MATLAB"),
     (b"MDF     ", "MDF of a measuring system"),
     (b"UnFinMF ", "MDF that was not finished"),
@@ -129,6 +129,8 @@ def _kind(start: Head) -> str:
         return f"{_ARCHIVE} ({inside}, ...): unpack it first: {how_to_unpack('ZIP', start.name)}"
     if (packer := packed_by(start.start)) is not None:
         return f"{packer}: unpack it first: {how_to_unpack(packer, start.name)}"
+    if (known := foreign_kind(start)) is not None:
+        return known
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what

@@ -3,6 +3,7 @@ a CSV or a Parquet file of them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import PurePath
@@ -16,17 +17,23 @@ _MOST_NULS = 0.2  # of the bytes of a text that was damaged
 
 @dataclass(frozen=True, slots=True)
 class _Kind:
-    """magic: first bytes; what: such a file is; do: what to do, with {name} and {stem} of the file."""
+    """magic: pattern of the first bytes; what: such a file is; do: what to do, with {name} and {stem} of the file;
+    ends: of the names of such files, where the bytes alone are no proof."""
 
     magic: bytes
     what: str
     do: str
+    ends: tuple[str, ...] = ("",)
+
+    def is_of(self, start: Head) -> bool:
+        return start.name.lower().endswith(self.ends) and re.match(self.magic, start.start) is not None
 
 
 _BY_ARROW = (
     'make a Parquet file of it: python -c "import pyarrow.{of} as f, pyarrow.parquet as p; '
     "p.write_table(f.read_table('{{name}}'), '{{stem}}.parquet')\""
 )
+_BY_CATMAN = "export it from catman as ASCII with channel information, or as MAT"
 _KINDS = (
     _Kind(
         b"SQLite format 3",
@@ -38,12 +45,20 @@ _KINDS = (
         b"\x89HDF\r\n",
         "HDF5, and no MAT file",
         'make a Parquet file of its data sets: python -c "import h5py, pyarrow, pyarrow.parquet as p; '
-        "f = h5py.File('{name}'); p.write_table(pyarrow.table({{k: f[k][:] for k in ['TIME', 'SIGNAL']}}), "
+        "f = h5py.File('{name}'); p.write_table(pyarrow.table({{k + f'_{{i}}' * (f[k].ndim > 1): c "
+        "for k in ['TIME', 'SIGNAL'] for i, c in enumerate(f[k][:].reshape(len(f[k]), -1).T)}}), "
         "'{stem}.parquet')\", where python -c \"import h5py; h5py.File('{name}').visititems(print)\" names the data "
-        "sets; of one that pandas wrote: pandas.read_hdf('{name}').to_parquet('{stem}.parquet')",
+        "sets, whose attributes with units do not come with it: declare these; of one that pandas wrote: "
+        "pandas.read_hdf('{name}').to_parquet('{stem}.parquet')",
     ),
     *(_Kind(magic, "Feather (Arrow)", _BY_ARROW.format(of="feather")) for magic in (b"ARROW1", b"FEA1")),
     _Kind(b"ORC", "ORC", _BY_ARROW.format(of="orc")),
+    _Kind(
+        rb"\x80[\x02-\x05][\x95}\]c(]",
+        "a pickle of Python, which is never opened, for it runs what stands in it",
+        'where you trust it, make a Parquet file of it: python -c "import pandas; '
+        "pandas.DataFrame(pandas.read_pickle('{name}')).to_parquet('{stem}.parquet')\"",
+    ),
     _Kind(
         b"\x93NUMPY",
         "an array of NumPy",
@@ -51,15 +66,39 @@ _KINDS = (
         "delimiter=',', header='time [s],T_1 [degC]', comments='')\", with the names and units that are right",
     ),
     _Kind(b"Obj\x01", "Avro", "export it as CSV or Parquet from what wrote it"),
+    _Kind(rb"PK\x03\x04[\s\S]{26}mimetypeapplication/vnd\.oasis\.opendocument\.spreadsheet", "ODS", "save it as XLSX"),
+    _Kind(
+        rb"PK\x03\x04[\s\S]*?word/(?:document|styles|settings|_rels)",
+        "a document of Word",
+        "save a table in it as XLSX or CSV",
+    ),
+    _Kind(rb"\|CF,", "FAMOS of imc", "export it from imc FAMOS or imc STUDIO as CSV or TDMS"),
+    _Kind(
+        rb"(?:\xef\xbb\xbf)?<\?xml[^>]*>\s*<usi:tdm",
+        "the header of a TDM data set of NI",
+        "save it as TDMS from DIAdem",
+    ),
+    _Kind(b"DIAEXTENDED", "the header of a DIAdem data set", "save it as TDMS from DIAdem"),
+    _Kind(rb"[\x91-\x94]\x13[\s\S]{2}\x00\x00", "a binary file of catman", _BY_CATMAN, (".bin",)),
+    _Kind(rb"\x71\x17\x00\x00", "a binary file of an HBM amplifier (MEA)", _BY_CATMAN, (".mea",)),
+    _Kind(
+        rb"\x00[\x64-\x7f]\x00[\s\S]\x00[ -~]{3}|\x01\x00[\x64-\x7f]\x00[\s\S][ -~]{3}",
+        "UDBF of Gantner",
+        "export it as CSV from GI.bench",
+    ),
 )
 
 
+def foreign_kind(start: Head) -> str | None:
+    """What a file is that its first bytes name, and what to do; None for all others."""
+    found = next((k for k in _KINDS if k.is_of(start)), None)
+    return found and f"{found.what}: " + found.do.format(name=start.name, stem=PurePath(start.name).stem)
+
+
 def foreign_file(start: Head) -> str | None:
-    """What such a file is, and what to do; None for all others."""
-    found = next((k for k in _KINDS if start.start.startswith(k.magic)), None)
-    if found is not None:
-        name = start.name
-        return f"{found.what}: " + found.do.format(name=name, stem=PurePath(name).stem)
+    """The same, also of texts that are damaged or of fixed width."""
+    if (kind := foreign_kind(start)) is not None:
+        return kind
     for what in _OTHERWISE:
         if (said := what(start)) is not None:
             return said

@@ -28,7 +28,8 @@ class Reader:
         if head.start[:4] == b"PAR1":
             return "Parquet: the file starts with 'PAR1'"
         if head.start[:4] == b"PK\x03\x04":
-            workbook = packed(head.start) is None and (b"xl/" in head.start or b"[Content_Types]" in head.start)
+            office = b"[Content_Types]" in head.start and b"word/" not in head.start and b"ppt/" not in head.start
+            workbook = packed(head.start) is None and (b"xl/" in head.start or office)
             return "XLSX: a ZIP file that holds a workbook" if workbook else None
         if head.start[:8] in (b"MDF     ", b"UnFinMF "):
             return f"MDF: version {head.start[8:12].decode('ascii', 'replace').strip()} in its first bytes"

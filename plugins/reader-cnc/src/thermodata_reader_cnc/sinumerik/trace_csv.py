@@ -139,6 +139,8 @@ def _seconds(name: str) -> float | None:
 
 def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text, or None."""
+    if lines and lines[0].lstrip().startswith(("{", "[")):
+        return None  # JSON whose texts name paths
     return None if find_header(lines) is None else "Sinumerik Trace CSV: a column named by a path such as /Nck/..."
 
 
