@@ -9,6 +9,8 @@ from thermodata.reader.text.cells.cell import WORDS, Cell, is_dated, is_number, 
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells
 from thermodata.reader.text.preamble.head_words import said_by
 
+_FEWEST_LABELS = 2  # rows of numbers behind a word
+
 
 def is_data(row: Sequence[Cell], width: int) -> bool:
     """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer."""
@@ -34,7 +36,10 @@ def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     # a word in the first cell is a label where rows hold none there
     firsts = [r[0] for r in second_half(body) if len(r) >= width - 1]
     labels = mostly(firsts, lambda c: is_number(c) or is_stamp(c), 0.9, len(firsts))
+    unlabelled = _below_labels(body, firsts)
     for i, row in enumerate(body):
+        if i < unlabelled:
+            continue
         if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
             continue  # a row of a list of channels with their ranges
         if labels and _is_labelled(row):
@@ -58,6 +63,17 @@ def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         expected="rows of numbers and times",
         hint="nothing was recorded, if it is a header alone; else declare table: {header_rows: ..., skip_rows: ...}",
     )
+
+
+def _below_labels(body: Sequence[Sequence[Cell]], firsts: Sequence[Cell]) -> int:
+    """The index of the first row without a label, below rows of settings behind words: 'Range;500;500' above
+    ';0,12;0,08'. 0 where it is no such table: one word may mark its first row. firsts: the first
+    cells of later rows."""
+    if sum(c in ("", None) for c in firsts) < 0.9 * max(1, len(firsts)):
+        return 0
+    first = next((i for i, r in enumerate(body) if r and r[0] in ("", None) and any(map(is_number, r))), 0)
+    width = width_of(body)
+    return first if sum(is_data(r, width) for r in body[:first]) >= _FEWEST_LABELS else 0
 
 
 def _is_labelled(row: Sequence[Cell]) -> bool:

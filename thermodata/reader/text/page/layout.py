@@ -21,6 +21,7 @@ from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
 from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.labelled_head import labelled_head
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
@@ -101,6 +102,8 @@ def find_layout(
     row_of_units = int(said["units_row"]) - 1 - skip if "units_row" in said else None
     below = rows[first : first + _ROWS_BELOW]
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
+    lines = [texts_of(r) for r in above]
+    above, settings = labelled_head(above, below, width)
     lacking = None
     if between is not None and "header_rows" not in said:
         times = said.get("time") or {}
@@ -115,14 +118,13 @@ def find_layout(
     lost = list[str]()
     if "header_rows" not in said:
         lost = lines_between(above, width, skip, header.names, header.units, where, between is not None)
-    lines = [texts_of(r) for r in above]
     seen = FirstRows(header.names, header.units, data, where)
     groups, notes = _times(said.get("time"), seen, lines)
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(header.names[i], seen.column(i), groups[0].seconds, lines) for i in time]
     called = ", ".join(header.worded.values())
     by_words = f"columns are called by the words before their values: {called}" if called else None
-    noted = (*notes, *lost, by_words, fit.note if fit else None, lacking, header.unused, *against)
+    noted = (*notes, *lost, by_words, fit.note if fit else None, lacking, header.unused, settings, *against)
     return Layout(
         first,
         tuple(header.names),

@@ -17,11 +17,12 @@ _LABEL = re.compile(
     r"(?i)(?:(?:sampl(?:e|ing)|scan|log(?:ging)?|record(?:ing)?|measur(?:e|ing|ement)|data|time|storage)[ _-]*)?"
     r"(?P<what>interval|period|step|rate|frequency|cycle)|(?:abtast|mess|log|aufzeichnungs|speicher)?-?(?P<de>intervall|zeit|"
     r"periode|rate|frequenz|takt)|intervallo|intervalle|intervalo|période|periodo|interval vzorkování|perioda|"
-    r"サンプリング間隔|サンプリング周期|采样间隔|采样周期|记录间隔"
+    r"hresolution|サンプリング間隔|サンプリング周期|采样间隔|采样周期|记录间隔"
 )
-_VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
+_VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
 _RATE = re.compile(r"(?i)rate|frequen[cz]")  # at which a logger samples, whatever it writes
 _CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)")
+_HERTZ = ("hz", "khz")
 _NEAR = 1.05  # of an interval, by which rows may be off
 _BARE_WORDS = ("zeit", "takt", "rate", "period", "step", "cycle")  # which alone say another thing as well
 
@@ -30,13 +31,17 @@ def interval_above(lines: Iterable[Sequence[str]], rates: bool = True) -> tuple[
     """(the time from row to row [s], the line that says so); None where none says one, or several say others. rates:
     whether lines that say a rate count, too."""
     found: dict[float, str] = {}
-    for cells in lines:
-        text = " ".join(c.strip() for c in cells if c and c.strip()).strip("#%;/* \t\"'")
+    for cells in _with_units_below([_once(cells) for cells in lines]):
+        text = " ".join(cells).strip("#%;/* \t\"'")
         match = re.fullmatch(
             r"(?P<label>[^:=\d\[(]+?)\s*(?:[\[(](?P<unit>[^\W\d]+)[\])])?\s*[:=]?\s*(?P<value>\d\S*.*)", text
         )
         label = _LABEL.fullmatch(match["label"].strip()) if match else None
-        if match is None or label is None or label[0].casefold() in _BARE_WORDS:
+        if (
+            match is None
+            or label is None
+            or (label[0].casefold() in _BARE_WORDS and (match["unit"] or "").lower() not in _HERTZ)
+        ):
             continue
         if not rates and _RATE.search(label[0]):
             continue
@@ -46,6 +51,20 @@ def interval_above(lines: Iterable[Sequence[str]], rates: bool = True) -> tuple[
     return next(iter(found.items())) if len(found) == 1 else None
 
 
+def _once(cells: Sequence[str]) -> list[str]:
+    """The filled cells of a line; of one that says of all channels the same, its label and that: 'HUnit,s,s,s'."""
+    filled = [c.strip() for c in cells if c and c.strip()]
+    return filled[:2] if len(filled) > 2 and len(set(filled[1:])) == 1 else filled
+
+
+def _with_units_below(lines: Sequence[list[str]]) -> list[list[str]]:
+    """Lines, where the resolution of Yokogawa's recorders, 'HResolution,10', says what it is with the unit of
+    'HUnit,s'."""
+    unit = next((cells[1] for cells in lines if len(cells) == 2 and cells[0] == "HUnit"), None)
+    said = [[cells[0], f"{cells[1]} {unit}"] for cells in lines if len(cells) == 2 and cells[0] == "HResolution"]
+    return [*lines, *(said if unit else [])]
+
+
 def _seconds(value: str, unit: str | None) -> float | None:
     if clock := _CLOCK.fullmatch(value):
         return 3600 * int(clock["h"]) + 60 * int(clock["m"]) + float(clock["s"].replace(",", ".")) or None
@@ -53,7 +72,7 @@ def _seconds(value: str, unit: str | None) -> float | None:
     if match is None or not float(match["number"].replace(",", ".")):
         return None
     number, said = float(match["number"].replace(",", ".")), (match["unit"] or unit or "").lower()
-    if said in ("hz", "khz"):
+    if said in _HERTZ:
         return 1.0 / (number * (1000 if said == "khz" else 1))
     return number * SECONDS[said] if said in SECONDS else None
 
