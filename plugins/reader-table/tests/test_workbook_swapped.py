@@ -63,11 +63,25 @@ def test_texts_beside_dates_tell_which_way_round_these_were_read(tmp_path: Path)
     cells = [_opened_as(t) for t in LATER]
     with pytest.raises(QuestionError) as asked:
         _read(tmp_path, cells)
-    assert "mdy? 64 cells are dates, 136 are text such as '3/13/2026 00:00:00'" in asked.value.ask
+    assert "swapped or mdy? 64 cells are dates, 136 are text such as '3/13/2026 00:00:00'" in asked.value.ask
     _are(_read(tmp_path, cells, "mdy"), LATER)
     _are(_read(tmp_path, cells, "%m/%d/%Y %H:%M:%S"), LATER)
+    _are(_read(tmp_path, cells, "swapped"), LATER)
+    alike = [_serial(t) if k % 2 else f"{t:%m/%d/%Y %H:%M:%S}" for k, t in enumerate(LATER)]
     with pytest.raises(FormatError, match="not exchanged"):
-        _read(tmp_path, cells, "swapped")
+        _read(tmp_path, alike, "swapped")
+
+
+DAY = [dt.datetime(2026, 4, 8, 8) + dt.timedelta(minutes=k) for k in range(60)]
+
+
+@pytest.mark.parametrize("form", ["mdy", "dmy", "%m/%d/%Y %H:%M:%S"])
+def test_an_order_declared_for_texts_asks_of_dates_alone(tmp_path: Path, form: str) -> None:
+    cells = [_opened_as(t) for t in DAY]
+    turned = _read(tmp_path, cells, form)
+    assert any("2026-08-04 or 2026-04-08? declare table" in n for n in turned.recording.notes)
+    _are(_read(tmp_path, cells, "swapped"), DAY)
+    assert not any("declare" in n for n in _read(tmp_path, cells, "shown").recording.notes)
 
 
 MONTHLY = [dt.datetime(2026, m, 3) for m in range(1, 13)]

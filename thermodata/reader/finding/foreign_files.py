@@ -92,7 +92,9 @@ _KINDS = (
 def foreign_kind(start: Head) -> str | None:
     """What a file is that its first bytes name, and what to do; None for all others."""
     found = next((k for k in _KINDS if k.is_of(start)), None)
-    return found and f"{found.what}: " + found.do.format(name=start.name, stem=PurePath(start.name).stem)
+    if found is None:
+        return None
+    return f"{found.what}: " + found.do.format(name=start.name, stem=PurePath(start.name).stem)
 
 
 def foreign_file(start: Head) -> str | None:

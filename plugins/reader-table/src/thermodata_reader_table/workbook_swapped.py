@@ -16,7 +16,7 @@ from thermodata.plugin import Int1D
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.open_questions import ASK, UNKNOWN, unanswered
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 
@@ -24,6 +24,7 @@ SWAPPED, SHOWN = "swapped", "shown"
 _TURNED = "day and month of its dates were exchanged: turned, for its rows go on from day to day only so"
 _DAY_NS, _LEAST_APART = 86_400 * 10**9, 20 * 86_400 * 10**9
 _MOST_DAY = 12
+_ORDERS = ("dmy", "mdy")
 _GOES_ON = 3  # usual steps, at most, from the last row of a day to the first of the next
 _FEWEST_ROWS, _FEWEST_DAYS = 3, 4  # a day; in all
 _TEXT = re.compile(r"\s*(\d{1,2})[/.-](\d{1,2})[/.-]\d{4}(?!\d)")
@@ -42,27 +43,43 @@ def swapped_times(cells: Sequence[Any], zone: str | None, declared: str | None, 
         raise unanswered("time.format", f"{SWAPPED}, {SHOWN}, dmy or mdy", where)
     may_be = all(d.day <= _MOST_DAY for d in dates)
     texts = [c for c in cells if isinstance(c, str) and c.strip()]
-    if declared == SWAPPED and (texts or not may_be):
+    order = _order_of(texts) if texts and may_be else None
+    if declared == SWAPPED and (not may_be or (texts and order is None)):
         raise FormatError(
             "day and month of these dates were not exchanged",
             where=where,
-            expected="dates alone, with days of 1 to 12",
-            got=texts[0] if texts else str(next(d for d in dates if d.day > _MOST_DAY)),
+            expected="dates with days of 1 to 12, and texts with days above",
+            got=texts[0] if may_be else str(next(d for d in dates if d.day > _MOST_DAY)),
             hint=f"declare table: {{time: {{format: {'mdy' if texts else SHOWN}}}}}",
         )
     if texts:
-        order = _order_of(texts) if may_be else None
         if order is None:
             return None
         if declared is None:
             raise _mixed(dates, texts, order, where)
-        return _of_both(cells, zone, declared, where) if order == _declared_order(declared) else None
+        spelled = order if declared == SWAPPED else declared
+        return _of_both(cells, zone, spelled, where) if order == _declared_order(spelled) else None
+    if may_be and declared is not None and _declared_order(declared) in _ORDERS and not _looks_swapped(dates):
+        return _as_shown(cells, dates, declared, zone)
     if declared == SHOWN or (declared != SWAPPED and not (may_be and _looks_swapped(dates))):
         return None
     if declared is None:
         raise _exchanged(dates, where)
     times = times_of_dates(_naive([_turned(c) for c in cells]).view("datetime64[ns]"), zone)
     return times if declared == SWAPPED else replace(times, notes=(*times.notes, _TURNED))
+
+
+def _as_shown(cells: Sequence[Any], dates: Sequence[dt.datetime], declared: str, zone: str | None) -> Stamps:
+    """The times of cells that are all dates, where an order is declared as of texts: what made dates of the others of
+    its source may have exchanged day and month of all of these."""
+    times = times_of_dates(_naive(cells).view("datetime64[ns]"), zone)
+    first = dates[0]
+    note = (
+        f"all cells of the time are dates, which '{declared}' does not turn: {ASK} {first:%Y-%m-%d} or "
+        f"{_turned(first):%Y-%m-%d}? declare table: {{time: {{format: {SHOWN}}}}} where they are right, or "
+        f"{{format: {SWAPPED}}} where a spreadsheet exchanged day and month, as in a file of texts and dates"
+    )
+    return replace(times, notes=(*times.notes, note))
 
 
 def _exchanged(dates: Sequence[dt.datetime], where: str) -> QuestionError:
@@ -91,11 +108,12 @@ def _mixed(dates: Sequence[dt.datetime], texts: Sequence[str], order: str, where
         where=where,
         expected="dates alone, or texts alone",
         got=f"{both}: {dates[0]:%Y-%m-%d} and '{texts[0].strip()}'",
-        hint=f"declare table: {{time: {{format: {order}}}}}: what made dates of the others exchanged day and month",
-        ask=f"format of the dates: {order}? {both} such as '{texts[0].strip()}', and no date is of a day above 12: "
-        f"their day and month are exchanged, {dates[0]:%Y-%m-%d} is {_turned(dates[0]):%Y-%m-%d}",
+        hint=f"declare table: {{time: {{format: {SWAPPED}}}}}, which reads files of dates alone as well, or "
+        f"{{format: {order}}}: what made dates of the others exchanged day and month",
+        ask=f"format of the dates: {SWAPPED} or {order}? {both} such as '{texts[0].strip()}', and no date is of a "
+        f"day above 12: their day and month are exchanged, {dates[0]:%Y-%m-%d} is {_turned(dates[0]):%Y-%m-%d}",
         declare={"time": {"format": UNKNOWN}},
-        meanwhile={"time": {"format": order}},
+        meanwhile={"time": {"format": SWAPPED}},
     )
 
 

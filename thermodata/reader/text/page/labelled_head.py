@@ -17,7 +17,7 @@ _UNITS = re.compile(r"(?i)[vy]?[ _-]?(?:units?|einheit(?:en)?|jednotk[ay]|unité
 
 def labelled_head(
     above: Sequence[Sequence[Cell]], below: Sequence[Sequence[Cell]], width: int
-) -> tuple[list[Sequence[Cell]], str | None]:
+) -> tuple[list[list[Cell]], str | None]:
     """(the rows above the data, those of settings without their cells, the note on them); as they are, and None, where
     they are no such head."""
     rows = [texts_of(r) for r in above]
@@ -26,11 +26,11 @@ def labelled_head(
     blank = sum(not r or r[0] in ("", None) for r in below)
     named = next((i for i in labelled if _names(rows[i][1:])), None)
     if blank < _BLANK * len(below) or len(settings) < _FEWEST_SETTINGS or named is None:
-        return list(above), None
+        return [list(r) for r in above], None
     units = next((i for i in labelled if i != named and _UNITS.fullmatch(rows[i][0].strip(" :"))), None)
-    kept: list[Sequence[Cell]] = [rows[i] if i == named else ["" for _ in r] for i, r in enumerate(above)]
+    kept: list[list[Cell]] = [list(rows[i]) if i == named else ["" for _ in r] for i, r in enumerate(above)]
     if units is not None:
-        kept[max(units, named)], kept[min(units, named)] = ["", *rows[units][1:]], rows[named]
+        kept[max(units, named)], kept[min(units, named)] = ["", *rows[units][1:]], list(rows[named])
     called = ", ".join(f"'{rows[i][0]}'" for i in settings)
     return kept, f"rows of settings above the data are not read: {called}"
 
