@@ -38,6 +38,17 @@ def test_below_a_header_it_is_told_that_they_are_not(tmp_path: Path, head: str, 
     assert f"a header names columns: '{named}'" in told
 
 
+def test_they_are_refused_where_the_header_is_declared_as_well(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time [s];a;b\n" + "".join(f"{k};{k};2.5\n" for k in range(30)))
+    table = {"names": NAMES, "header_rows": 1}
+    with pytest.raises(FormatError, match="a header names the columns") as refused:
+        load(Reader(), tmp_path / "a.csv", Source(table=table))
+    assert refused.value.got == "'a'"
+    assert "{skip_rows: 1, header_rows: 0, names: [...]}" in (refused.value.hint or "")
+    data = load(Reader(), tmp_path / "a.csv", Source(table={"skip_rows": 1, "header_rows": 0, "names": NAMES}))
+    assert [name for _, name in data.values] == ["A [degC]", "B [um]"]
+
+
 def test_the_same_names_in_the_file_are_no_matter(tmp_path: Path) -> None:
     data = read(tmp_path, ";".join(NAMES), dated=False)
     assert [name for _, name in data.values] == ["A [degC]", "B [um]"]

@@ -22,7 +22,7 @@ from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated
 from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.labelled_head import labelled_head
-from thermodata.reader.text.page.line_up import Fit, line_up
+from thermodata.reader.text.page.line_up import Fit, line_up, units_by_keyword
 from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
@@ -99,7 +99,8 @@ def find_layout(
     skip = int(said.get("skip_rows", 0))
     width = width_of(rows[skip:])
     first = _first_row(rows, said, skip, width, where)
-    row_of_units = int(said["units_row"]) - 1 - skip if "units_row" in said else None
+    called = units_by_keyword(rows[skip:first], width)
+    row_of_units = int(said["units_row"]) - 1 - skip if "units_row" in said else called
     below = rows[first : first + _ROWS_BELOW]
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
     lines = [texts_of(r) for r in above]
@@ -122,8 +123,8 @@ def find_layout(
     groups, notes = _times(said.get("time"), seen, lines)
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(header.names[i], seen.column(i), groups[0].seconds, lines) for i in time]
-    called = ", ".join(header.worded.values())
-    by_words = f"columns are called by the words before their values: {called}" if called else None
+    worded = ", ".join(header.worded.values())
+    by_words = f"columns are called by the words before their values: {worded}" if worded else None
     noted = (*notes, *lost, by_words, fit.note if fit else None, lacking, header.unused, settings, *against)
     return Layout(
         first,
@@ -166,7 +167,7 @@ def _header(
     units = [split_unit(worded[i])[1] if i in worded else unit for i, unit in enumerate(units)]
     unused = None
     if "names" in said and list(said["names"]) != heads:
-        unused = unused_note(heads, below)
+        unused = unused_note(heads, below, int(said.get("skip_rows", 0)) + len(above), said, where)
         if unused is None:
             heads = declared_names(said["names"], width, where)
             units = [split_unit(name)[1] for name in heads]

@@ -14,6 +14,7 @@ from thermodata.reader.text.clocks.names_of_time import cells_of_time, empty_at_
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import is_time_header, says_time
+from thermodata.reader.times.time_units import SECONDS
 
 _MARK = re.compile(r"[#%;!*]{1,3}|//+|--+")  # of a comment, as a word of its own
 _LONGEST_LABEL = 4  # words, and the mark, of what a row of names is called
@@ -23,6 +24,9 @@ _OF_COLUMNS = re.compile(
     r"kanäle|signale|colonnes?|colonne|columnas|colunas|unités?|unità|unidades|sloupce|jednotky|kolumny|jednostki|"
     r"kolommen|列|列名|单位|単位)\b"
 )
+# as instruments call a row, before the name or the unit of its time: "SIGNAL","TIME","ACH 1"
+_KEYWORD = re.compile(r"(?i)(?:[a-z]+_)?(?:columns?|names?|fields?|channels?|signals?|variables?|units?)")
+_UNITS = re.compile(r"(?i)(?:[a-z]+_)?units?")
 NUMBERED = "the header names one column fewer than there are: the first holds the numbers of the rows"
 
 
@@ -74,6 +78,12 @@ def line_up(
     return [fit.over(r) for r in bare], fit
 
 
+def units_by_keyword(above: Sequence[Sequence[Cell]], width: int) -> int | None:
+    """Which row above the data a keyword calls units: '"VERT_UNITS","s","um"'; None where none does."""
+    called = (i for i, r in enumerate(above) if _before_names(r, width) and _UNITS.fullmatch(str(r[0]).strip()))
+    return next(called, None)
+
+
 def _before_names(row: Sequence[Cell], width: int) -> int:
     """How many cells stand before the first of as many names as there are columns: the mark of a comment, or what the
     row is called, '%% columns:'. 0 of another row."""
@@ -82,6 +92,9 @@ def _before_names(row: Sequence[Cell], width: int) -> int:
         return 0
     said = " ".join(texts_of(row[:many])).strip()
     label = _LABEL.fullmatch(said)
+    if many == 1 and _KEYWORD.fullmatch(said):
+        first = str(row[1] or "").strip()
+        return 1 if says_time(first) or is_time_header(first) or first in SECONDS else 0
     return many if (many == 1 and _MARK.fullmatch(said)) or (label and _OF_COLUMNS.search(said)) else 0
 
 

@@ -75,7 +75,8 @@ def refuse_misfit(
     first = skip + len(above) + 1
     at = skip + place + 1
     last = "columns have no name" if few else "names have no column"
-    lacking = f"declare table: {{header_rows: {at}}} if only the last {last}; else "
+    beside = names_of_time(names) is not None and not _stand_over_the_time(names, rows, columns)
+    lacking = "" if beside else f"declare table: {{header_rows: {at}}} if only the last {last}; else "
     blanks = "write names without blanks, or " if delimiter == "blanks" else ""
     commas = f"has {columns - said} column{'s' * (columns - said != 1)} a decimal comma? then export with ';' between "
     commas = f"{commas}cells; else " if few and delimiter == "','" else ""
