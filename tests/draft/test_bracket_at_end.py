@@ -151,3 +151,9 @@ def test_a_share_without_a_unit_that_stays_within_one_is_asked(name: str, low: f
 def test_of_a_share_of_one_1_is_100_per_cent() -> None:
     assert linear_conversion("pu", "%") == pytest.approx((100.0, 0.0))
     assert linear_conversion("%", "p.u.") == pytest.approx((0.01, 0.0))
+
+
+@pytest.mark.parametrize("name", ["T(:,1)", "T(1, 2)"])
+def test_the_index_of_an_array_is_no_unit(name: str) -> None:
+    found = guess(name, None, "float64", values_of(np.linspace(20.0, 38.0, 200)))
+    assert "no unit" not in found.comment()

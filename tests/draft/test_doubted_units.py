@@ -171,6 +171,24 @@ def test_a_unit_in_the_letters_of_another_encoding_is_asked_for_that_first() -> 
     assert "encoding" not in guess("T [tenths]", "tenths", "float64", seen).comment()
 
 
+@pytest.mark.parametrize(
+    ("name", "unit", "right"),
+    [
+        ("Capteur X [Âµm]", None, "µm"),
+        ("Capteur X", "Âµm", "µm"),
+        ("Capteur X [Î¼m]", "Î¼m", "μm"),
+        ("BÃ¢ti [Â°C]", "Â°C", "°C"),
+    ],
+)
+def test_a_unit_in_utf_8_that_was_read_as_windows_is_proposed_and_asked(
+    name: str, unit: str | None, right: str
+) -> None:
+    found = guess(name, unit)
+    assert (found.unit, found.sure) == (right, False)
+    assert f"unit: {right}? the file says '" in found.comment()
+    assert found.at == ("bed" if right == "°C" else "tcp")
+
+
 @pytest.mark.parametrize("name", ["/thermo/spindle.variance", "T_stddev", "Varianz T1"])
 def test_how_far_readings_scatter_is_no_reading(name: str) -> None:
     assert guess(name, None, "float64", values_of(np.linspace(0.0, 0.01, 200))).quantity is None

@@ -82,6 +82,7 @@ def test_unit_in_brackets(header: str, name: str, unit: str | None) -> None:
         ("RH, % (LGR S/N: 10384870, SEN S/N: 10384870)", "RH", "%"),
         ("Host Connected (LGR S/N: 10384870)", "Host Connected", None),
         ("Kanal 1 [°C] vorn", "Kanal 1 vorn", "°C"),
+        ("TCP [um](1)", "TCP (1)", "um"),
         ("101 (C)- T_front", "101 T_front", "C"),
         ("103 (Vdc)- gap", "103 gap", "Vdc"),
         ("M00: °C", "M00", "°C"),

@@ -24,6 +24,7 @@ _OF_COUNTS = re.compile(
 )
 # signs that no word has; a stroke between two of a kind, 'A/B' or '1/2', is none of them
 _SIGNS = re.compile(r"[%‰°º²³^″µμ]|^\"$|[^\W\d_]/(?:s|sec|min|h|hr|rev|turn|count|digit|m?V|K|mm|m)$")
+_INDEX = re.compile(r"[\d:, ]+")  # of an array of MATLAB: T(:,1)
 _NUMBER = re.compile(r"^\d[\d.,/]*\s*(?=[^\W\d_])")
 
 
@@ -50,7 +51,7 @@ def unknown(name: str, quantity: str | None) -> str | None:
     bare = said.casefold().rstrip(".")
     if _OF_COUNTS.fullmatch(bare):
         return said
-    if bare in _WORDS or _is_word(words(said)):
+    if bare in _WORDS or _is_word(words(said)) or _INDEX.fullmatch(bare):
         return None
     if _SIGNS.search(said):
         return said

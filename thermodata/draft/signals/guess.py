@@ -29,7 +29,7 @@ from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.unit_in_name import unit_at_end
-from thermodata.schema.units.letters import encoding_hint
+from thermodata.schema.units.letters import encoding_hint, mended
 from thermodata.schema.units.quantity import is_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
@@ -88,6 +88,8 @@ def guess(
         return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
         return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
+    if (right := _mended(name, unit, dtype, values, described)) is not None:
+        return right
     said = _Name.of(name)
     own, text, told = words(said.last), words(said.bare), words(described)
     field = words(said.field)
@@ -126,6 +128,19 @@ def guess(
     if values is None:
         return found
     return implausible(found, text, values) if known else doubted(found, said.bare, values)
+
+
+def _mended(name: str, unit: str | None, dtype: str, values: Values | None, described: str) -> Guess | None:
+    """The guess of a signal whose unit was saved in a wrong encoding, asked: 'Âµm'. None of another."""
+    written = unit or split_unit(name)[1]
+    right = mended(written) if written and not is_unit(written) else None
+    if right is None or not is_unit(right):
+        return None
+    found = guess(mended(name) or name, unit and right, dtype, values, described)
+    asked = f"unit: {right}? the file says '{written}', which is '{right}' in UTF-8 that was read as a text of Windows"
+    if found.quantity is None:
+        return found
+    return replace(found, unit=right, sure=False, questions=(*found.questions, asked))
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,3 +34,15 @@ def encoding_hint(unit: str) -> str:
     encoding makes it a unit."""
     found = encoding_of(unit)
     return "" if found is None else f"encoding: {found[0]} in the source, by which '{unit}' is '{found[1]}'; or "
+
+
+def mended(text: str) -> str | None:
+    """A text in UTF-8 that was read as one of Windows, and saved so: 'µm' of 'Âµm', 'Bâti' of 'BÃ¢ti'. None where it is
+    none."""
+    for wrong in ("cp1252", "latin-1"):
+        try:
+            right = text.encode(wrong).decode("utf-8")
+        except UnicodeError:
+            continue
+        return right if right != text else None
+    return None

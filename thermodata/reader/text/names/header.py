@@ -76,7 +76,9 @@ _LABEL = re.compile(r"\bLBL: *(?P<label>[^,]+)")
 _OF_CHANNEL = re.compile(
     r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S.*))$"
 )
-_SQUARE = re.compile(r"^(?P<before>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\[\]]{2,})\]\s+(?P<behind>[^\[\]]+)$")
+_SQUARE = re.compile(
+    r"^(?P<before>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\[\]]{2,})\](?:\s+|(?=\(\d{1,4}\)$))(?P<behind>[^\[\]]+)$"
+)
 
 
 def _unit_within(header: str) -> tuple[str, str | None]:
