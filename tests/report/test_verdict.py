@@ -380,7 +380,14 @@ def test_where_parts_of_tests_are_left_out_that_is_said(tests: Sequence[str], sa
 
 @pytest.mark.parametrize(
     ("shape", "said"),
-    [((0.4, 0.3), "judged by their shape where it acts, 0.400 -> 0.300 um; from their"), ((0.4, 0.5), "get worse")],
+    [
+        (
+            (0.4, 0.3),
+            "; locked tests get better by their shape where it acts (0.400 -> 0.300 um), which a claim is judged by, "
+            "and worse as they are scored, from their first samples on (0.500 -> 0.600 um)",
+        ),
+        ((0.4, 0.5), "get worse"),
+    ],
 )
 def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by_it(
     shape: tuple[float, float], said: str

@@ -84,6 +84,12 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
         return (
             f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
         )
+    if after >= before and shape[0] is not None and shape[1] is not None:
+        better, worse = f"{number(shape[0])} -> {number(shape[1])} um", "worse" if after > before else "no better"
+        return (
+            f"; locked tests get better{all_of} by their shape where it acts ({better}), which a claim is judged by, "
+            f"and {worse} as they are scored, from their first samples on ({figures})"
+        )
     by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
     return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
 
