@@ -127,3 +127,22 @@ def test_a_model_reads_what_its_drivers_name_and_what_lies_at_their_places(
     done = say("--store", tmp_path / "s", "ingest", path)
     assert done.code == 3
     assert (f"mend {lost}, which" in done.err.splitlines()[-1]) is read
+
+
+def test_a_model_that_was_drafted_before_places_were_answered_is_drafted_anew(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    model, answered = path.with_name("model.yaml"), path.read_text()
+
+    def step() -> str:
+        return str(say("--store", tmp_path / "s", "ingest", path).err.splitlines()[-1])
+
+    assert "at: axis.z.nut" in answered
+    path.write_text(answered.replace("at: axis.z.nut", "at: unused"))
+    assert say("first-model", path).code == 0
+    assert step() == f"next: thermodata fit {model}"
+    path.write_text(answered)
+    assert step() == f"next: thermodata first-model {path} drafts {model}; thermodata fit {model}"
+    model.write_text(model.read_text().replace("step: 60 s", "step: 30 s"))
+    assert step() == f"next: thermodata fit {model}", "what somebody changed is theirs"
+    assert say("first-model", path).code == 0
+    assert step() == f"next: thermodata fit {model}"

@@ -42,7 +42,8 @@ def test_what_was_moved_is_told_and_what_was_not() -> None:
     assert moved.why == (
         "nc is later beside daq. The choice is made with 'nc' moved by -26 min there, for what the commands of one log "
         "warm, by the other one, comes at the right time so. "
-        "If it was right, declare at this test clocks: {nc: 0 s}"
+        "To mend the log too, declare at this test clocks: {nc: -1560 s}; "
+        "if the log's own clock was right, clocks: {nc: 0 s}, and it is not asked again"
     )
     assert "Nothing was moved for it here, for what the commands of one log warm" in kept.why
     assert "too little warms in the test" in kept.why

@@ -279,6 +279,8 @@ class TestAnswer:
     ) -> None:
         found = self.answered(monkeypatch, spec, claim(FIRST), holds=False)
         why = {c.effect: c.why.partition("not claimed: ")[2] for c in found.candidates}
+        shape = {c.effect: (c.locked_shape_um_before, c.locked_shape_um_after) for c in found.candidates}
+        assert shape == {"first": (1.0, 1.0), "twin": (None, None), "other": (None, None)}, "as its reason has them"
         assert why["first"] == (
             "first:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free "
             "offset a test, 1.00 -> 1.00 um)"

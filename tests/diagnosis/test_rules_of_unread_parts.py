@@ -191,7 +191,7 @@ def test_heats_in_words() -> None:
     assert heat_at(["axis.z.nut", "axis.z.guide"], " or ") == "heat at axis.z.nut or axis.z.guide"
     assert heat_at(["hall"], " or ") == "the air of the hall"
     assert heat_at(["enclosure"], " or ") == "the air of the working space"
-    holder = "heat of what holds the probes or the part (nothing is logged at fixture)"
+    holder = "a warming fixture of the probes or the part (no sensor there)"
     assert heat_at(["fixture"], " or ") == holder
     assert heat_at(["hall", "fixture"], " and ") == f"{holder} and the air of the hall"
     assert heat_at(["axis.z.nut", "fixture"], " or ") == f"heat at axis.z.nut or {holder}"

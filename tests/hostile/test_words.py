@@ -168,7 +168,10 @@ def test_locked_tests_that_a_claim_makes_worse_come_before_the_errors_that_it_ma
         locked_rmse_um_before=locked[0], locked_rmse_um_after=locked[1],
     )  # fmt: skip
     text = before_after_text(result)
-    assert text.startswith("the locked tests get worse with what the diagnosis claims: 1.84 -> 5.01 um, 2.7 ") is told
+    worse = (
+        "the locked tests get worse with what the diagnosis claims: 1.84 -> 5.01 um, 2.7 times as much, as its answer"
+    )
+    assert text.startswith(f"as they are scored, from their first samples on, {worse} says, which judges by") is told
     assert ("locked" in text) is told
 
 
@@ -180,7 +183,7 @@ def test_of_several_responses_no_figure_stands_in_the_unit_of_another() -> None:
         locked_rmse_um_before=0.2, locked_rmse_um_after=0.4,
     )  # fmt: skip
     text = in_units(before_after_text(result), {"dZ": "um", "T_nut": "K"})
-    assert text.startswith("the locked tests get worse with what the diagnosis claims: 2.0 times as much. ")
+    assert "the locked tests get worse with what the diagnosis claims: 2.0 times as much, as its answer says" in text
 
 
 def test_a_response_that_gets_worse_is_said_in_its_own_unit_beside_one_that_gets_better() -> None:

@@ -232,6 +232,58 @@ def test_a_gain_that_the_tests_leave_open_is_told_so(value: float, half: float, 
     assert "leave it open" not in unknown.advice
 
 
+@dataclass(frozen=True)
+class Turned(Straight):
+    """Its gain is what it does at 10000 rpm."""
+
+    needs: tuple[Need, ...] = (Need("u", "rotational_speed"),)
+    gains: tuple[Gain, ...] = (Gain("gain", "um", (0.5, 30.0), "any", "displacement at 10000 rpm"),)
+    raises: bool = False
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        if self.raises:
+            raise ValueError("three samples are too few")
+        return (drivers.values["u"][:, None] / 10000.0) ** 2
+
+
+def at_speed(rpm: float) -> TestData:
+    test = a_test()
+    channels = {"n": ChannelInfo("n", "rotational_speed", "rpm")}
+    return replace(test, values={"T": test.t_s * 0 - rpm}, channels=channels)
+
+
+@pytest.mark.parametrize(
+    ("rpm", "gain", "limit"),
+    [
+        (4000.0, -84.7, None),  # 13.6 um at 4000 rpm
+        (4000.0, -187.4, None),
+        (4000.0, -187.6, 187.5),
+        (10000.0, 30.1, 30.0),
+        (20000.0, 29.9, None),  # sizes are known at 10000 rpm
+        (20000.0, 30.1, 30.0),
+        (0.0, 30.1, 30.0),
+    ],
+)
+def test_a_gain_at_a_reference_is_judged_at_what_was_logged(rpm: float, gain: float, limit: float | None) -> None:
+    found = bound_checks.at_bounds(UM, term(Turned(), gain=gain, driver="n"), [at_speed(rpm / 2), at_speed(rpm)])
+    assert [c.threshold for c in found] == ([] if limit is None else [pytest.approx(limit)])
+    there = ", which is -30 um at the 4000 rpm that were logged, is larger than anything known"
+    assert all((there in c.advice) is (rpm == 4000.0) for c in found)
+
+
+def test_an_effect_that_no_constant_driver_suits_is_judged_by_its_gain() -> None:
+    assert names(bound_checks.at_bounds(UM, term(Turned(raises=True), gain=40.0, driver="n"), [at_speed(4000.0)]))
+
+
+@pytest.mark.parametrize(("half", "left_open"), [(10.0, False), (15.0, True)])
+def test_a_gain_at_a_reference_is_left_open_to_what_is_usual_there(half: float, left_open: bool) -> None:
+    """Of 200 um at 10000 rpm, usual are 187.5 where the machine reaches 4000."""
+    found = term(Turned(), gain=200.0, driver="n")
+    found.groups[""].half["gain"] = half
+    [said] = bound_checks.at_bounds(UM, found, [at_speed(4000.0)])
+    assert ("leave it open" in said.advice) is left_open
+
+
 @pytest.mark.parametrize(("quantity", "named", "unit"), [("temperature", True, "um/K"), ("feed", False, "um")])
 def test_a_gain_a_kelvin_is_one_where_a_temperature_drives_it(quantity: str, named: bool, unit: str) -> None:
     """A screw that is driven by its feed grows by 20 um at 10 m/min, which is no 20 um/K."""

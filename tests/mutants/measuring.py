@@ -37,7 +37,7 @@ MUTANTS = [
     check("FEWEST = 5.0", "FEWEST = 1.0", "fits to a few independent samples pass"),
     check("AT_BOUND = 1e-3", "AT_BOUND = 1e-9", "parameters at their bounds go unnoticed", "bound_checks.py"),
     check("if value > record:", "if value > 9 * record:", "time constants beyond the record pass", "term_checks.py"),
-    check("abs(value) > usual.largest", "value > usual.largest", "implausible negative gains pass", "bound_checks.py"),
+    check("abs(value) * there", "value * there", "implausible negative gains pass", "bound_checks.py"),
     check("LAGS_APART = 1.5", "LAGS_APART = 1.0", "lags that are one pass as two", "term_checks.py"),
     check("UNSURE = 1.0", "UNSURE = 99.0", "lags that nothing tells pass", "term_checks.py"),
     check("RIPPLE = 1.0", "RIPPLE = 99.0", "quantisation of a sensor reaches the prediction", "term_checks.py"),

@@ -380,7 +380,14 @@ def test_where_parts_of_tests_are_left_out_that_is_said(tests: Sequence[str], sa
 
 @pytest.mark.parametrize(
     ("shape", "said"),
-    [((0.4, 0.3), "judged by their shape where it acts, 0.400 -> 0.300 um; from their"), ((0.4, 0.5), "get worse")],
+    [
+        (
+            (0.4, 0.3),
+            "; locked tests get better by their shape where it acts (0.400 -> 0.300 um), which a claim is judged by, "
+            "and worse as they are scored, from their first samples on (0.500 -> 0.600 um)",
+        ),
+        ((0.4, 0.5), "get worse"),
+    ],
 )
 def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by_it(
     shape: tuple[float, float], said: str
@@ -431,16 +438,35 @@ def rung(name: str, *, holds: bool) -> Rung:
     return Rung(name=name, asks="", value=1.0, limit=0.5, at="least", asked=True, holds=holds, unit="1")
 
 
-@pytest.mark.parametrize(("tests", "holds", "told"), [(2, True, True), (2, False, False), (None, True, False)])
+@pytest.mark.parametrize(
+    ("tests", "holds", "locked", "told"),
+    [
+        (2, True, (1.07, 1.09), ": enough for a claim, which asks 50 %, but the locked tests do not bear it out (1.07"),
+        (2, True, (1.07, 0.99), ": enough for a claim, which asks 50 %, but the locked tests do not bear it out (1.07"),
+        (2, True, (None, None), ": enough for a claim, which asks 50 %, but the locked tests do not bear it out"),
+        (
+            1,
+            False,
+            (0.66, 1.38),
+            ", though the locked tests do not bear it out (0.660 -> 1.38 um about each one's mean)",
+        ),
+        (1, False, (1.4, 1.3), ""),
+        (1, False, (None, None), ""),
+        (None, True, (None, None), ""),
+    ],
+)
 def test_the_likeliest_that_the_locked_tests_refuse_is_told_with_that(
-    tests: int | None, holds: bool, told: bool
+    tests: int | None, holds: bool, locked: tuple[float | None, float | None], told: str
 ) -> None:
-    """It keeps all rules, and is no claim: there is nothing else that may have stopped it."""
+    """One that keeps all rules, and is no claim, is stopped by nothing else; one that is less probable for what they
+    say has them beside its probability, too."""
     rungs = [rung("fall", holds=True), rung("probability", holds=holds)]
-    first = one("sun", probability=0.82, locked_tests_asked=tests, rungs=rungs)
+    shape = dict(zip(("locked_shape_um_before", "locked_shape_um_after"), locked, strict=True))
+    first = one("sun", probability=0.82, locked_tests_asked=tests, rungs=rungs, **shape)
     text = verdict_sentence(found("unknown", [first]))
-    assert "the likeliest that was logged is sun (T), probability 82 %" in text
-    assert text.endswith("though the locked tests do not bear it out") is told
+    _, _, rest = text.partition("the likeliest that was logged is sun (T), probability 82 %")
+    assert rest.startswith(told)
+    assert bool(rest) is bool(told)
 
 
 @pytest.mark.parametrize(("tests", "said"), [(2, True), (0, False), (None, False)])

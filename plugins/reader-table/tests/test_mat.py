@@ -233,3 +233,21 @@ def test_zeros_in_text_are_the_blanks_that_matlab_shows(tmp_path: Path, version:
         head = b"MATLAB 7.3 MAT-file".ljust(116) + b"\0" * 8 + b"\x00\x02IM"
         path.write_bytes(head.ljust(512, b"\0") + path.read_bytes()[512:])
     assert names(load(Reader(), path, Source())) == [("dZ [um]", "um"), ("n [rpm]", "rpm")]
+
+
+@pytest.mark.parametrize(
+    ("name", "said", "wants"),
+    [
+        ("start", "2026-05-06 08:10:00", "start: 2026-05-06 08:10:00"),
+        ("start_time", "06.05.2026 08:10", "start: 2026-05-06 08:10:00"),
+        ("start", "2026-05-06T08:10:00Z", "start: (local to the timezone of its source)"),
+        ("created", "2026-05-06 08:10:00", ""),
+        ("start", "slowly", ""),
+    ],
+)
+def test_a_start_that_stands_beside_the_signals_is_told(tmp_path: Path, name: str, said: str, wants: str) -> None:
+    rising = {"t": col(np.arange(50.0)), "dX_um": col(np.arange(50.0)), name: said}
+    told = [n for n in read(tmp_path, rising).recording.notes if n.startswith("a text beside the signals says when")]
+    assert [n.endswith(f"if it is right, the test wants {wants}") for n in told] == [True] * bool(wants)
+    dated = {**rising, "t": col(1.7e9 + np.arange(50.0))}
+    assert not [n for n in read(tmp_path, dated).recording.notes if "beside the signals" in n]

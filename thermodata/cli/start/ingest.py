@@ -34,6 +34,7 @@ def ingest_command(session: Session, campaign: Path, replace: bool) -> int:
     """
     from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.writing.baseline import model_text_of
+    from thermodata.draft.writing.seal import is_as_sealed
     from thermodata.report.text.after_ingest import next_step
     from thermodata.schema.files.load import load_campaign
     from thermodata.store.ingest.run import ingest, store_for
@@ -42,7 +43,7 @@ def ingest_command(session: Session, campaign: Path, replace: bool) -> int:
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line, in_its_place=replace).to_json())
     session.answer(summary, lambda: ingest_text(summary, _labels(store, summary["stale"])))
-    step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)))
+    step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)), is_as_sealed)
     if step is not None:
         session.say(step)
     return 3 if summary["losses"] else 0

@@ -98,7 +98,10 @@ class Ends:
             if move is not None and move in moved:
                 by = f"{move.moved_s / 60:+.3g} min"
                 then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}. "
-                then += f"If it was right, declare at this test clocks: {{{move.source}: 0 s}}"
+                then += (
+                    f"To mend the log too, declare at this test {line}; if the log's own clock was right, "
+                    f"clocks: {{{move.source}: 0 s}}, and it is not asked again"
+                )
             found.append(_told(odd.campaign, odd.test, f"{said}. {then}"))
         known = {m.source for m in moved if not m.test}
         return found + [

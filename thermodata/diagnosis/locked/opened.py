@@ -158,9 +158,8 @@ def _why(refused: Sequence[Judged], unit: str) -> str:
     names = [j.scored.candidate.id for j in refused]
     explain, them = ("explains", "it") if len(names) == 1 else ("explain", "them")
     looks = [j.scored.looked for j in refused if j.scored.looked is not None]
-    spoilt = [one.together for one in looks if one.spoils and one.together is not None]
-    said = spoilt or [f for one in looks for f in one.saying]
-    least = min(said, key=lambda f: f.fall, default=None)
+    said = [one.least for one in [one for one in looks if one.spoils] or looks]
+    least = min((f for f in said if f is not None), key=lambda f: f.fall, default=None)
     there = (
         ""
         if least is None

@@ -122,7 +122,7 @@ def candidate(
     refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
-    shape = held.on(held.asked) if held else _added(s) if refining else None
+    shape = held.on(held.asked) if held else _added(s) if refining else s.looked.least if s.looked else None
     told, of_model = beside_the_model(s, investigation)
     told_of = any(s is one for one in told_with)
     by_name = goes_by_name(s, told_with) if member is None else None

@@ -79,6 +79,12 @@ class Looked:
         return [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
 
     @property
+    def least(self) -> Foretold | None:
+        """Of the ways that say something the one in which the error falls least; of all locked tests where it spoils
+        these. None where nothing says anything."""
+        return self.together if self.spoils else min(self.saying, key=lambda f: f.fall, default=None)
+
+    @property
     def log_odds(self) -> float:
         """What they add to the odds' logarithm that the claim is the cause. Where one way says nothing, the other
         speaks for both; 0 where both say nothing."""

@@ -12,6 +12,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.schema.units.quantity import linear_conversion
 from thermodata.schema.words.places import is_spindle
+from thermodata.schema.words.sentences import listed
 
 _WARMER_K = 3.0
 _FEWEST = 3  # tests, of which the coolest tells what the machine at rest reads
@@ -34,10 +35,26 @@ def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Name
         for test, kelvin in starts.items() if len(starts) >= _FEWEST else ():
             if kelvin - rest > max(_WARMER_K, found.get(test, (0.0, ""))[0]):
                 found[test] = (kelvin - rest, part)
-    return {
-        test: f"start_state: warm? {part} begins {kelvin:.1f} K further above air and castings than in the coolest test"
-        for test, (kelvin, part) in found.items()
-    }
+    return _asked({t: found[t] for t in tests if t in found}, len(above))
+
+
+def _asked(found: Mapping[str, tuple[float, str]], tests: int) -> dict[str, str]:
+    """Of each test by how much which part is warmer, as questions. Where one part is so in most tests, it follows the
+    air late after each night, or the machine was never cold: one answer holds for all of them, and it is asked once."""
+    asked: dict[str, str] = {}
+    for part in dict.fromkeys(part for _, part in found.values()):
+        by = {test: kelvin for test, (kelvin, own) in found.items() if own == part}
+        above = "K further above air and castings than in the coolest test"
+        if 2 * len(by) <= tests:
+            asked |= {test: f"start_state: warm? {part} begins {kelvin:.1f} {above}" for test, kelvin in by.items()}
+            continue
+        first, *others = by
+        asked[first] = (
+            f"start_state: warm? {part} begins {min(by.values()):.1f} to {max(by.values()):.1f} {above} here and in "
+            f"{listed(others)}: warm in all of these where the machine had run before, not where {part} only follows "
+            "the air late"
+        )
+    return asked
 
 
 def _above_the_rest(files: Sequence[RawFile], named: Mapping[int, Named]) -> dict[str, float]:

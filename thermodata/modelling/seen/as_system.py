@@ -114,7 +114,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         tuple(ljung_box(correlation, count, k) for k in LJUNG_BOX if k <= most),
         _states(response, shown, tests, residuals, data.step_s),
         tests=tuple(t.test for t in tests),
-        at_bounds=tuple(c for term in response.terms for c in at_bounds(response, term)),
+        at_bounds=tuple(c for term in response.terms for c in at_bounds(response, term, tests)),
     )
 
 

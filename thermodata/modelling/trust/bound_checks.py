@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, bounds_of
 from thermodata.modelling.terms.parameters import UNDETERMINED, interval, name_of
+from thermodata.modelling.trust.at_reference import reached
 from thermodata.modelling.trust.usual_gain import usual_gain
 from thermodata.plugin import Param
 from thermodata.schema.answers.result import Check
+from thermodata.view.grid.dataset import TestData
 
 IMPLAUSIBLE = "implausible:"  # before the name of a gain, in the name of a check
 AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 
 
-def at_bounds(response: FittedResponse, term: FittedTerm) -> list[Check]:
-    """Parameters and gains of an effect that a bound holds, and gains beyond what the library thinks possible."""
+def at_bounds(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData] = ()) -> list[Check]:
+    """Parameters and gains of an effect that a bound holds, and gains beyond what the library thinks possible. tests:
+    those that it was fitted to, which say how far its drivers go."""
     # what groups share is said once
     of_params = {row.name: row for rows in (_bounds, _undetermined) for row in rows(term)}
-    return [*of_params.values(), *_gain_bounds(term), *_plausible(response, term)]
+    return [*of_params.values(), *_gain_bounds(term), *_plausible(response, term, tests)]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:
@@ -116,22 +121,23 @@ def _gain_bounds(term: FittedTerm) -> list[Check]:
     return rows
 
 
-def _plausible(response: FittedResponse, term: FittedTerm) -> list[Check]:
+def _plausible(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData] = ()) -> list[Check]:
     rows = []
-    for gain in term.effect.gains:
+    for place, gain in enumerate(term.effect.gains):
         usual = usual_gain(response, term, gain)
         if usual is None or gain.name in term.bound.spec.fixed:
             continue
         for group, values in term.groups.items():
             value, tag = values.gains[gain.name], f"[{group}]" if group else ""
-            if abs(value) > usual.largest:
+            there = reached(term, place, values.params, tests)
+            if abs(value) * there.share > usual.largest:
                 rows.append(
                     Check(
                         name=f"{IMPLAUSIBLE}{term.id}.{gain.name}{tag}",
                         value=value,
-                        threshold=usual.largest,
+                        threshold=usual.largest / there.share,
                         passed=False,
-                        advice=usual.said(value, interval(gain.name, values)),
+                        advice=usual.said(value, interval(gain.name, values), there),
                     )
                 )
     return rows

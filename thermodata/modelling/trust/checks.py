@@ -51,7 +51,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     for term in response.terms:
         rows += [
             *own_channel(response, term, tests),
-            *at_bounds(response, term),
+            *at_bounds(response, term, tests),
             *longer_than_record(term, tests),
             *lags_apart(term),
             *ripple(response, term, tests),

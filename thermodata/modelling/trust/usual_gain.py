@@ -9,6 +9,7 @@ from functools import lru_cache
 from thermodata.effect.registry import all_effects
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.parameters import gain_unit
+from thermodata.modelling.trust.at_reference import WHOLE, Reached
 from thermodata.plugin import Gain
 
 
@@ -21,22 +22,30 @@ class Usual:
     unit: str
     whose: str
 
-    def said(self, value: float, ends: tuple[float | None, float | None] = (None, None)) -> str:
+    def said(self, value: float, ends: tuple[float | None, float | None] = (None, None), there: Reached = WHOLE) -> str:
         """Of a gain that is larger: how much, and what is usual. ends: of its interval; where usual sizes lie within,
-        the tests do not know the gain, and the value says nothing against the effect."""
+        the tests do not know the gain, and the value says nothing against the effect. there: what of it this machine
+        reaches."""
         low, high = ends
         left_open = ""
-        if low is not None and high is not None and low <= self.largest and high >= -self.largest:
+        largest = self.largest / there.share
+        if low is not None and high is not None and low <= largest and high >= -largest:
             left_open = (
                 f"; these tests leave it open ({low:.3g} to {high:.3g} {self.unit}, 95 %), usual sizes among them, so "
                 "the value speaks neither for the effect nor against it"
             )
-        size = f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
+        size = f"{_number(value)} {self.unit}"
+        if there.at:
+            size += f", which is {_number(value * there.share)} {self.unit} at the {there.at} that were logged,"
         sizes = f"{self.smallest:g} to {self.largest:g}" if self.smallest > 0 else f"up to {self.largest:g}"
         return (
-            f"{size} {self.unit} is larger than anything known for {self.whose} ({sizes} {self.unit}): it may "
+            f"{size} is larger than anything known for {self.whose} ({sizes} {self.unit}): it may "
             f"stand in for another effect, or its driver may have another unit{left_open}"
         )
+
+
+def _number(value: float) -> str:
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
 def usual_gain(response: FittedResponse, term: FittedTerm, gain: Gain) -> Usual | None:

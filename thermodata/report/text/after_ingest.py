@@ -26,9 +26,16 @@ _CHANNEL = re.compile(r"\bchannel '(\w+)'")
 _MOVES = ("displacement", "tilt")
 
 
-def next_step(store: Store, summary: Mapping[str, Any], campaign: Path, draft: Callable[[], str | None]) -> str | None:
+def next_step(
+    store: Store,
+    summary: Mapping[str, Any],
+    campaign: Path,
+    draft: Callable[[], str | None],
+    is_drafted: Callable[[str], bool],
+) -> str | None:
     """What leads to a model; to samples, where the campaign has none of these. None where it has a model. summary: of
-    the ingest, as its JSON; campaign: the file; draft: the text of its first model."""
+    the ingest, as its JSON; campaign: the file; draft: the text of its first model; is_drafted: whether the text of a
+    model file stands as some draft had it."""
     again = f"then thermodata ingest {campaign} again"
     if not summary["samples"]:
         # where nothing was lost, it has no tests yet, as a note says
@@ -52,13 +59,24 @@ def next_step(store: Store, summary: Mapping[str, Any], campaign: Path, draft: C
     if asking is not None and (read := [one["name"] for one in lost if _reads(asking, one)]):
         whose = f"{path} reads" if path.exists() else "a first model reads"
         return f"next: mend {' and '.join(read)}, which {whose} and every test lost, {again}"
-    make = "" if path.exists() else f"thermodata first-model {campaign} drafts {path}; "
+    make = f"thermodata first-model {campaign} drafts {path}; " if _to_draft(path, draft, is_drafted) else ""
     if unfitted:
         return (
             f"next: give the tests roles in {campaign}, for none has 'role: calibration' and there is nothing to fit "
             f"(role: verification for those that judge the model); {again}; {make}{fit}"
         )
     return f"next: {make}{fit}"
+
+
+def _to_draft(path: Path, draft: Callable[[], str | None], is_drafted: Callable[[str], bool]) -> bool:
+    """Whether there is no model file, or one as it was drafted before the campaign file was answered."""
+    if not path.exists():
+        return True
+    try:
+        there = path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError):  # `fit` says what is wrong with it
+        return False
+    return is_drafted(there) and (text := draft()) is not None and text != there
 
 
 def _read(path: Path) -> Model | None:

@@ -236,7 +236,7 @@ def _words(found: Diagnosis) -> str:
     """What the words for its errors mean."""
     if found.verdict == "not_testable":
         return explained("fitted")
-    words = explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else []))
+    words = explained("left-out", *(["locked"] if any(c.locked_tests_asked for c in found.candidates) else []))
     left_out, *others = words.splitlines()
     told_of_parts = in_parts(found)
     return "\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others])

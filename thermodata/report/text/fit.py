@@ -246,8 +246,9 @@ def worse_on_locked(result: FitResult) -> str:
     # of several responses nothing here says which it is of, and in which unit
     figures = f"{number(before)} -> {number(after)} um, " if len(result.responses) == 1 else ""
     return (
-        f"the locked tests get worse with what the diagnosis claims: {figures}"
-        f"{number(after / before, 2)} times as much. The errors below are of tests that it was fitted to or chosen by, "
+        "as they are scored, from their first samples on, the locked tests get worse with what the diagnosis claims: "
+        f"{figures}{number(after / before, 2)} times as much, as its answer says, which judges by their shape (each "
+        "about its own mean). The errors below are of tests that it was fitted to or chosen by, "
         "so ask the locked ones (thermodata confirm tells each) before this version is used"
     )
 

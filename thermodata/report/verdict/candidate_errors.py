@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words.numbers import number
-from thermodata.schema.words.sentences import listed
+from thermodata.schema.words.sentences import in_percent, listed
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
@@ -84,8 +84,29 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
         return (
             f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
         )
+    if after >= before and shape[0] is not None and shape[1] is not None:
+        better, worse = f"{number(shape[0])} -> {number(shape[1])} um", "worse" if after > before else "no better"
+        return (
+            f"; locked tests get better{all_of} by their shape where it acts ({better}), which a claim is judged by, "
+            f"and {worse} as they are scored, from their first samples on ({figures})"
+        )
     by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
     return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
+
+
+def not_borne_out(one: Candidate) -> str:
+    """What the locked tests say against a likely cause that they were opened for; '' where they don't. One that keeps
+    every rule, and is as probable as a claim asks, is stopped by nothing else."""
+    before, after = one.locked_shape_um_before, one.locked_shape_um_after
+    falls = before is None or after is None or after < before
+    enough = bool(one.rungs) and all(r.holds for r in one.rungs)
+    if not one.locked_tests_asked or (falls and not enough):
+        return ""
+    figures = "" if before is None else f" ({number(before)} -> {number(after)} um about each one's mean)"
+    limit = next((r.limit for r in one.rungs if r.name == "probability"), None)
+    if not enough or limit is None:
+        return f", though the locked tests do not bear it out{figures}"
+    return f": enough for a claim, which asks {in_percent(limit)}, but the locked tests do not bear it out{figures}"
 
 
 def _shape_says_more(left: float, before: float | None, after: float | None) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors
+from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
 from thermodata.report.verdict.could_hide import could_be
 from thermodata.report.verdict.left_over import as_of_nothing, left_over, offered, on_left_out
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
@@ -260,8 +260,7 @@ def _unclaimed(found: Diagnosis) -> str:
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     return (
         f"{missing}the evidence{asked} suffices to name no cause; the likeliest that was logged "
-        f"is {_or_elsewhere(first)}, probability {probability(share)}"
-        f"{', though the locked tests do not bear it out' if _is_refused(first) else ''}"
+        f"is {_or_elsewhere(first)}, probability {probability(share)}{not_borne_out(first)}"
     )
 
 
@@ -270,11 +269,6 @@ def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
     left = found.rmse_um
     far = locked is not None and left is not None and locked >= FAR * left
     return f"{number(locked)} um" if far and locked is not None else ""
-
-
-def _is_refused(one: Candidate) -> bool:
-    """Whether it keeps every rule, is as probable as a claim asks, and the locked tests were asked: they refuse it."""
-    return bool(one.locked_tests_asked and one.rungs) and all(r.holds for r in one.rungs)
 
 
 def in_parts(found: Diagnosis) -> str:

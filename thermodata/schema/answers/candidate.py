@@ -93,7 +93,8 @@ class Candidate(Result):
     locked_rmse_um_before: error on the locked tests without it; for a claimed one only
     locked_rmse_um_after: with it
     locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
-        they were opened for, over those in which it acts
+        they were opened for, over those in which it acts; of what they were opened for and is neither, of the looks
+        that say anything the one in which the error falls least, as the reason tells it
     locked_shape_um_after: with it
     locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
         where it is not known, or nothing was opened for it

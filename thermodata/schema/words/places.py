@@ -183,7 +183,7 @@ def is_around(place: str | None) -> bool:
 
 AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}
 # where a campaign may know no such place: what it is, and that nothing is logged there
-_SAID = {"fixture": "heat of what holds the probes or the part (nothing is logged at fixture)", **AIRS}
+_SAID = {"fixture": "a warming fixture of the probes or the part (no sensor there)", **AIRS}
 
 
 def heat_at(places: Sequence[str], link: str) -> str:
