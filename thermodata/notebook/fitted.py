@@ -22,6 +22,7 @@ from thermodata.report.text.fit import before_after_text, fit_text, span
 from thermodata.report.words.numbers import change, in_units
 
 if TYPE_CHECKING:
+    from thermodata.schema.answers.locked_error import LockedError
     from thermodata.schema.answers.result import Check, FitResult, Parameter
     from thermodata.store import Store
 
@@ -107,6 +108,14 @@ class Fit(Shown):
 
         heed(self.store, [self.id])
         return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
+
+    def locked(self) -> list[LockedError]:
+        """What the model as it stands leaves on the locked tests, a row a response: as they are scored and about each
+        test's mean, by test. The look is counted; the same again is none."""
+        from thermodata.modelling.on_locked import locked_errors
+
+        heed(self.store, [self.id])
+        return locked_errors(self.store, self.id)[0]
 
     def add(self, *candidates: str | int, plain: bool = False) -> Fit:
         """A new version with further effects: each a rank or id of the diagnosis, or any 'effect:channels'."""

@@ -12,7 +12,7 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.pairs import name_and_value
 from thermodata.cli.terminal.stored_model import resolve
-from thermodata.report.text.band import band_text, elsewhere_text
+from thermodata.report.text.band import band_text, elsewhere_text, locked_lines
 from thermodata.report.text.table import table
 from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
@@ -96,6 +96,7 @@ def predict_command(
     further = beyond(loaded.fitted, loaded.data, made)
     held = list(dict.fromkeys(one for p in made for one in p.held))
     elsewhere = elsewhere_text(loaded.identity, band, made)
+    locked = locked_lines(loaded.identity, made)
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
@@ -107,9 +108,11 @@ def predict_command(
         "held": held,
         "band": band,
         "elsewhere": elsewhere,
+        "locked": locked,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band, made)], out))
+    more = [*locked, *elsewhere, *said(held), *band_text(band, made)]
+    session.answer(payload, lambda: _text(rows, made, further, more, out))
     return exit_code
 
 
