@@ -68,6 +68,7 @@ def predict_command(
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import check_out, write_table
     from thermodata.modelling.compare.ahead import ahead
+    from thermodata.modelling.on_its_tests import on_its_tests
     from thermodata.modelling.predictions.beyond import beyond
     from thermodata.modelling.predictions.carried_on import said
     from thermodata.modelling.predictions.conditions import under
@@ -76,7 +77,7 @@ def predict_command(
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
-    loaded = load(store, resolve(store, model), uncertainty=True)
+    loaded = on_its_tests(store, load(store, resolve(store, model), uncertainty=True))
     band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
     given = dict(map(_condition, conditions))
     with progress_line() as line:
