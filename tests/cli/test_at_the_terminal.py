@@ -175,3 +175,7 @@ def test_two_names_of_one_model_are_told(fitted: Path, say: Callable[..., Said])
     assert "are one model" not in say("--store", store, "compare", "baseline").err
     against = say("--store", store, "compare", "baseline", "--against", newest)
     assert "is compared with itself" in against.err
+    before = StoreView(store).sql("select model from model order by created_at").fetchall()[0][0]
+    beside = say("--store", store, "compare", before, newest, "--against", newest)
+    assert beside.code == 0
+    assert "with itself" not in beside.err, "the reference may stand as a row of its own"

@@ -86,6 +86,7 @@ def test_sniff_explains_every_readers_answer(say: Say, tmp_path: Path) -> None:
     assert all("made to try" in why for why in bad["others"].values())
     text = say("sniff", log, notes).out
     assert "  yes      table:" in text
+    assert "table: table:" not in text
     assert "  no       crio:" in text
 
 

@@ -119,6 +119,7 @@ def test_braces_that_stand_in_a_name_of_a_file_are_no_field(tmp_path: Path) -> N
         ("effects: [{effect: transfer_function, orders: [2]}]", "effects[0].orders", "2 values"),
         ("step: 30", "step", "of the kind of s"),
         ("campaigns: []", "campaigns", "campaigns: [ID, ID]"),
+        ("campaign: [a, b]", "campaign", "campaigns: [ID, ID]"),
         ("response: {axis: Z, channel: dZ}", "response", "{axis: Z, at: tcp} or {channel: name}"),
         ("response: []", "response", "{axis: Z, at: tcp}"),
     ],

@@ -228,6 +228,27 @@ def test_looks_at_locked_tests_are_counted(filled: Store) -> None:
     assert (locked_looks(filled, "shop", "two"), locked_looks(filled, "shop", "one")) == (2, 0)
 
 
+def test_looks_count_on_under_another_id_of_the_campaign(filled: Store, campaign: Path) -> None:
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    campaign.write_text(campaign.read_text().replace("id: shop", "id: store"))
+    ingest(filled, campaign)
+    assert [locked_looks(filled, "store", test) for test in ("one", "two")] == [0, 1]
+    forget(filled, "shop")
+    ingest(filled, campaign)
+    assert locked_looks(filled, "store", "two") == 1
+
+
+def test_models_that_span_other_campaigns_go_with_one_only_where_that_is_said(filled: Store) -> None:
+    save(filled, "m1")
+    with filled.write() as con:
+        con.execute("update model set campaigns = ['shop', 'other'] where model = 'm1'")
+    with pytest.raises(UsageError, match=r"m1 \(of other too\)"):
+        forget(filled, "shop")
+    assert find_model(filled, "m1").model == "m1"
+    assert locked_looks(filled, "shop", "two") == 0
+    assert forget(filled, "shop", models=True)["models"] == ["m1"]
+
+
 @pytest.mark.parametrize("test", [None, "two"])
 def test_looks_at_data_that_come_back_count_on(filled: Store, campaign: Path, test: str | None) -> None:
     count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")

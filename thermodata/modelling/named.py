@@ -76,8 +76,8 @@ def newest_model(store: Store) -> str:
 
 
 def of_which_version(store: Store, ref: str) -> str | None:
-    """Where a name leads to one of several versions that differ and are as far from the first: which it is, and the
-    others; else None."""
+    """Where a name leads to one of several versions that are as far from the first and differ, in effects or in the
+    tests that they were fitted to (and their data are as they were): which it is, and the others; else None."""
     from thermodata.store.catalogue.models import find_model
     from thermodata.view.lists.models import model_rows
 
@@ -87,14 +87,20 @@ def of_which_version(store: Store, ref: str) -> str | None:
     own = find_model(store, ref)
     row = next(m for m in rows if m.model == own.model)
     beside = [
-        m.model
+        m
         for m in rows
-        if (m.name, m.version, m.campaigns) == (row.name, row.version, row.campaigns) and m.effects != row.effects
+        if (m.name, m.version, m.campaigns) == (row.name, row.version, row.campaigns)
+        and m.model != row.model
+        and (m.effects != row.effects or not m.stale)
     ]
     if not beside:
         return None
-    are = f"{listed(beside)} {'is' if len(beside) == 1 else 'are'} version {row.version} too"
-    return f"'{ref}': {own.model}, the newest of that name; {are}, with other effects"
+    others = listed([m.model for m in beside])
+    are = f"{others} {'is' if len(beside) == 1 else 'are'} version {row.version} too"
+    if any(m.effects != row.effects for m in beside):
+        return f"'{ref}': {own.model}, the newest of that name; {are}, with other effects"
+    counts = listed([str(m.tests) for m in beside])
+    return f"'{ref}': {own.model}, the newest of that name; {are}, of {counts} tests, where it is of {row.tests}"
 
 
 def name_taken_over(store: Store, model: str) -> str | None:

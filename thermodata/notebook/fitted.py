@@ -15,13 +15,14 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
-from thermodata.notebook.stale import heed
+from thermodata.notebook.stale import heed, heed_no_band
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.text.fit import before_after_text, fit_text, span
 from thermodata.report.words.numbers import change, in_units
 
 if TYPE_CHECKING:
+    from thermodata.schema.answers.locked_error import LockedError
     from thermodata.schema.answers.result import Check, FitResult, Parameter
     from thermodata.store import Store
 
@@ -108,6 +109,14 @@ class Fit(Shown):
         heed(self.store, [self.id])
         return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
 
+    def locked(self) -> list[LockedError]:
+        """What the model as it stands leaves on the locked tests, a row a response: as they are scored and about each
+        test's mean, by test. The look is counted; the same again is none."""
+        from thermodata.modelling.on_locked import locked_errors
+
+        heed(self.store, [self.id])
+        return locked_errors(self.store, self.id)[0]
+
     def add(self, *candidates: str | int, plain: bool = False) -> Fit:
         """A new version with further effects: each a rank or id of the diagnosis, or any 'effect:channels'."""
         from thermodata.modelling.add import add
@@ -130,19 +139,21 @@ class Fit(Shown):
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
         'campaign:ID' is the campaign where a path is called so too. What can't be predicted is left out, with the
         reason in `left_out`. conditions: of all tests, as logs without a campaign file say none: {"tool": "A"}.
-        UsageError where there is no test."""
+        UsageError where there is no test; a `NoBandWarning` where the band of 95 % is not known, and is NaN."""
         from thermodata.draft.known.to_predict import predictions_of
         from thermodata.modelling.compare.ahead import ahead
+        from thermodata.modelling.on_its_tests import on_its_tests
         from thermodata.modelling.predictions.conditions import under
         from thermodata.modelling.run import load
 
         heed(self.store, [self.id])
         lost = list[str]()
-        loaded = load(self.store, self.id, uncertainty=True)
+        loaded = on_its_tests(self.store, load(self.store, self.id, uncertainty=True))
         made, left_out = predictions_of(
             self.store, loaded.fitted, os.fspath(target), lost.append, under=lambda data: under(data, conditions or {})
         )
         band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
+        heed_no_band(band.why_not)
         return Predictions(self.id, [band.of(p) for p in made], [*left_out, *lost])
 
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:

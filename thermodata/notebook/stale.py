@@ -15,6 +15,16 @@ class StaleModelWarning(UserWarning):
     """An answer is of a model whose data changed since it was fitted."""
 
 
+class NoBandWarning(UserWarning):
+    """Predictions have no band of 95 %."""
+
+
+def heed_no_band(why_not: str | None) -> None:
+    """A `NoBandWarning` that says why, where there is no band."""
+    if why_not is not None:
+        warnings.warn(f"no band of 95 %: {why_not}", NoBandWarning, stacklevel=_callers() + 1)
+
+
 def heed(store: Store, models: Iterable[str]) -> None:
     """A `StaleModelWarning` for each that is stale, where the call stands that asked."""
     from thermodata.store.catalogue.stale import stale_line

@@ -13,16 +13,18 @@ from thermodata.report.text.table import fields
 @click.argument("campaign", shell_complete=completing.campaigns)
 @click.argument("test", required=False, shell_complete=completing.tests)
 @click.option("--earlier", is_flag=True, help="Only the earlier versions of files that changed.")
-def forget_command(session: Session, campaign: str, test: str | None, earlier: bool) -> None:
+@click.option("--models", is_flag=True, help="Models that span other campaigns too may go with this one.")
+def forget_command(session: Session, campaign: str, test: str | None, earlier: bool, models: bool) -> None:
     """Remove a campaign or one TEST from the store.
 
-    With all that derives from it. The source files stay untouched, and so does how often locked tests were looked at:
-    it counts on where the same data are ingested again.
+    With all that derives from it; a campaign whose models span others is refused without --models. The source files
+    stay untouched, and so does how often locked tests were looked at: it counts on where the same data are ingested
+    again.
     """
     from thermodata.schema.words.sentences import counted
     from thermodata.store.keep.lifecycle import forget
 
-    gone = plain(forget(session.store(), campaign, test, earlier=earlier))
+    gone = plain(forget(session.store(), campaign, test, earlier=earlier, models=models))
     session.answer(gone, lambda: fields(gone.items()))
     if n := gone["looks"]:
         session.say(f"{counted(n, 'look')} at locked tests will count on where the same data are ingested again")

@@ -25,6 +25,11 @@ _OF_EFFECTS = (
     "gains",
 )
 WIDEST = 200
+OF_EVERY_MODEL = {
+    "prediction": "{effect: prediction, file: FILE.csv}",
+    "transfer_function": "{effect: transfer_function, drivers: {u: CHANNEL}}",
+    "model": "{effect: model, name: NAME, gain: K}",
+}
 
 
 def show(session: Session, name: str | None, rows: Sequence[Mapping[str, Any]]) -> None:
@@ -41,7 +46,10 @@ def _chosen(name: str | None, rows: Sequence[Mapping[str, Any]]) -> Mapping[str,
         raise UsageError("which plugin?", expected="plugins show NAME", hint="thermodata plugins lists them")
     fitting = [r for r in rows if name in (r["name"], f"{r['kind']}-{r['name']}")]
     if not fitting:
-        raise unknown_name("plugin", name, [str(r["name"]) for r in rows])
+        unknown = unknown_name("plugin", name, [str(r["name"]) for r in rows])
+        if name in OF_EVERY_MODEL:
+            unknown.hint = f"it belongs to every model and needs no plugin: {OF_EVERY_MODEL[name]} (docs/model.md)"
+        raise unknown
     if len(fitting) > 1:
         raise UsageError(
             f"a reader and an effect are named '{name}'",

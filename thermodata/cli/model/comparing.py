@@ -88,7 +88,8 @@ def compare_command(
 
         store = session.store()
         beside, reference = named(store), resolve(store, against)
-        tell_same(store, [beside[-1], against], [beside[-1], reference])
+        if len(beside) == 1:  # beside others the reference may stand as a row of its own
+            tell_same(store, [beside[0], against], [beside[0], reference])
         answer_against(session, store, beside, reference, layout, tests)
         return
     if tests:

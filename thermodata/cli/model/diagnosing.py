@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import click
@@ -14,6 +15,10 @@ from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
+
+
+KNOWN = "from the store: this was looked at before, and nothing has changed since"
+SHORTEST_ID = 4  # characters that name a model by the beginning of its id; a shorter number is a rank
 
 
 @command("diagnose")
@@ -50,24 +55,58 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
 
 @command("confirm")
 @click.argument("model", shell_complete=completing.models)
-@click.argument("candidate", shell_complete=completing.candidates)
+@click.argument("candidates", nargs=-1, metavar="[CANDIDATE | MODEL...]", shell_complete=completing.candidates)
 @click.option("--response", metavar="CHANNEL", help="Of a model with several: by default that which was diagnosed.")
-def confirm_command(session: Session, model: str, candidate: str, response: str | None) -> None:
-    """Open the locked tests for an effect of your own choice.
+def confirm_command(session: Session, model: str, candidates: tuple[str, ...], response: str | None) -> None:
+    """Open the locked tests for an effect of your own choice, or for models as they stand.
 
     CANDIDATE is its rank or id, as diagnose printed them, or any effect:channels. MODEL is fitted to all open tests
     without and with it, and both are scored on the locked ones. Every look is counted; asking the same again is none.
+
+    Without a candidate each MODEL is scored on the locked tests as it stands, fitted to its calibration tests: as
+    tests are scored, and about each test's mean. The JSON is a list, a row a model and response.
     """
     from thermodata.diagnosis.run import confirm_choice
 
     store = session.store()
+    if len(candidates) != 1 or _is_model(store, candidates[0]):
+        _answer_locked(session, store, (model, *candidates), response)
+        return
     ref = resolve(store, model)
     _say_what_was_open(store, ref)
-    result, known = confirm_choice(store, ref, candidate, response)
+    result, known = confirm_choice(store, ref, candidates[0], response)
     if known:
-        click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
+        click.echo(KNOWN, err=True)
     payload = with_stale(store, result.model, result)
     session.answer(payload, lambda: in_units_of(session, result.response, confirmed_text(result)))
+
+
+def _is_model(store: Store, text: str) -> bool:
+    """Whether a word stands for a model: a candidate is a rank, or names its channels after a colon."""
+    from thermodata.errors import UsageError
+    from thermodata.modelling.named import is_file
+    from thermodata.store.catalogue.models import find_model
+
+    if ":" in text or (text.isdigit() and len(text) < SHORTEST_ID):
+        return False
+    with suppress(UsageError):
+        return is_file(text) or bool(find_model(store, text).model)
+    return False
+
+
+def _answer_locked(session: Session, store: Store, refs: tuple[str, ...], response: str | None) -> None:
+    """Each model as it stands on the locked tests."""
+    from thermodata.modelling.on_locked import locked_errors
+    from thermodata.report.text.locked_error import locked_text
+
+    models = [resolve(store, ref) for ref in refs]
+    asked = [locked_errors(store, ref, response) for ref in dict.fromkeys(models)]
+    for ref in dict.fromkeys(models):
+        _say_what_was_open(store, ref)
+    found = [row for rows, _ in asked for row in rows]
+    if all(known for _, known in asked):
+        click.echo(KNOWN, err=True)
+    session.answer([with_stale(store, row.model, row) for row in found], lambda: locked_text(found))
 
 
 def _answered_before(store: Store, ref: str, response: str | None) -> Diagnosis | None:

@@ -55,8 +55,9 @@ def _text(rows: list[dict[str, Any]]) -> str:
         for row in rows
     ]
     heads = ("name", "version", "model", "campaigns", "responses", "effects", "calibration_um", "verification_um")
-    named = {"calibration_um": "calibration", "verification_um": "verification"}
-    columns = [(key, named.get(key, key)) for key in (*heads, "unit", "verdict", "made", "stale", "fitted")]
+    named = {"calibration_um": "calibration", "verification_um": "verification", "tests": "of tests"}
+    tail = ("unit", "verdict", "made", "tests", "stale", "fitted")
+    columns = [(key, named.get(key, key)) for key in (*heads, *tail)]
     return table(shown, columns)
 
 

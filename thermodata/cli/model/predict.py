@@ -12,7 +12,7 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.pairs import name_and_value
 from thermodata.cli.terminal.stored_model import resolve
-from thermodata.report.text.band import band_text, elsewhere_text
+from thermodata.report.text.band import band_text, elsewhere_text, locked_lines
 from thermodata.report.text.table import table
 from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
@@ -68,6 +68,7 @@ def predict_command(
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import check_out, write_table
     from thermodata.modelling.compare.ahead import ahead
+    from thermodata.modelling.on_its_tests import on_its_tests
     from thermodata.modelling.predictions.beyond import beyond
     from thermodata.modelling.predictions.carried_on import said
     from thermodata.modelling.predictions.conditions import under
@@ -76,7 +77,7 @@ def predict_command(
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
-    loaded = load(store, resolve(store, model), uncertainty=True)
+    loaded = on_its_tests(store, load(store, resolve(store, model), uncertainty=True))
     band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
     given = dict(map(_condition, conditions))
     with progress_line() as line:
@@ -96,6 +97,7 @@ def predict_command(
     further = beyond(loaded.fitted, loaded.data, made)
     held = list(dict.fromkeys(one for p in made for one in p.held))
     elsewhere = elsewhere_text(loaded.identity, band, made)
+    locked = locked_lines(loaded.identity, made)
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
@@ -107,9 +109,11 @@ def predict_command(
         "held": held,
         "band": band,
         "elsewhere": elsewhere,
+        "locked": locked,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band, made)], out))
+    more = [*locked, *elsewhere, *said(held), *band_text(band, made)]
+    session.answer(payload, lambda: _text(rows, made, further, more, out))
     return exit_code
 
 

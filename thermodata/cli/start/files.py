@@ -222,7 +222,7 @@ def _each(given: tuple[Path, ...]) -> list[Path]:
 def _explained(row: dict[str, Any]) -> str:
     who = row["reader"] or ("several readers" if row["claims"] else "no reader")
     lines = [f"{row['file']}: {who}", f"  it is    {row['kind']}"]
-    lines += [f"  yes      {name}: {why}" for name, why in row["claims"].items()]
+    lines += [f"  yes      {name}: {why.removeprefix(f'{name}: ')}" for name, why in row["claims"].items()]
     lines += [f"  no       {name}: {why.removeprefix('no; ')}" for name, why in row["others"].items()]
     return "\n".join(lines + ([f"  try      {row['advice']}"] if row["advice"] else []))
 
@@ -231,7 +231,7 @@ def _summary(rows: list[dict[str, Any]]) -> str:
     """One line a file, for many files."""
 
     def why(row: dict[str, Any]) -> str:
-        return "; ".join(f"{k}: {v}" for k, v in row["claims"].items()) or row["kind"]
+        return "; ".join(f"{k}: {v.removeprefix(f'{k}: ')}" for k, v in row["claims"].items()) or row["kind"]
 
     return (
         table(

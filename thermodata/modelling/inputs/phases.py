@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D
+from thermodata.view.grid.at_work import activity_channels, limits_of
 from thermodata.view.grid.dataset import TestData
 
-_ACTIVITY = ("rotational_speed", "feed", "power", "load")
 TOLD = ("heating", "steady", "cooling")  # where a test declares none
 STEADY = 0.9  # heating ends where the response has covered this part of its way
 SHORTEST_S = 600.0
@@ -43,14 +43,10 @@ def phases(test: TestData, response: str) -> dict[str, Bool1D]:
 def activity(test: TestData) -> Bool1D | None:
     """Where the machine works (spindle turns, axis feeds, power flows); None where no channel tells or none works."""
     working = np.zeros(len(test.t_s), bool)
-    known = False
-    for name in activity_channels(test):
-        values = np.abs(np.nan_to_num(test.values[name]))
-        top = float(values.max(initial=0.0))
-        if top > 0:
-            working |= values > 0.02 * top
-            known = True
-    if not known or not working.any():
+    for name, limit in (test.at_work or limits_of([test])).items():
+        if name in test.values:
+            working |= np.abs(np.nan_to_num(test.values[name])) > limit
+    if not working.any():
         return None
     # a pause for a measurement is no cooling phase
     step = float(test.t_s[1] - test.t_s[0]) if len(test.t_s) > 1 else 1.0
@@ -63,11 +59,6 @@ def activity(test: TestData) -> Bool1D | None:
 def activity_is_known(test: TestData) -> bool:
     """Whether a channel tells when the machine works, even if it never does."""
     return bool(activity_channels(test))
-
-
-def activity_channels(test: TestData) -> list[str]:
-    """The channels that tell when the machine works."""
-    return [name for name, info in test.channels.items() if info.quantity in _ACTIVITY and name in test.values]
 
 
 def runs(mask: Bool1D) -> list[tuple[int, int]]:

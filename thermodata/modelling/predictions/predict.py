@@ -29,7 +29,8 @@ class Predicted:
     driver was measured, or nearly; held: drivers that count as known beyond the ends of their logs. deviation: standard
     deviation by the parameters; half: half of the band of 95 % (`ahead`); None where they are not known.
     contributions: effect -> its share. measured: on the prediction's zero, that of the first minutes; None where the
-    test has no such displacement, or is locked: a look at that is counted, and belongs to `confirm`.
+    test has no such displacement, or is locked: a look at that is counted, and belongs to `confirm`. locked: whether
+    the test is, and has one.
     """
 
     campaign: str
@@ -45,6 +46,7 @@ class Predicted:
     deviation: Float1D | None = None
     half: Float1D | None = None
     machine: str = ""
+    locked: bool = False
 
     @property
     def ends(self) -> tuple[Float1D | None, Float1D | None]:
@@ -143,7 +145,8 @@ def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predic
     window = test.in_window
     name = response.bound.channel_of(test)
     measured = None
-    if not locked and name in test.values and np.isfinite(test.values[name]).any():
+    is_measured = name in test.values and bool(np.isfinite(test.values[name]).any())
+    if is_measured and not locked:
         measured = (response.measured(test) - response.offset(test, "zero"))[window]
         valid = test.valid.get(name)
         if valid is not None:
@@ -161,6 +164,7 @@ def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predic
         tuple(carried_on([t.bound for t in response.terms], test)),
         None if (spread := bands(response, test, from_start=True).predicted) is None else spread[window],
         machine=test.machine,
+        locked=is_measured and locked,
     )
 
 

@@ -10,12 +10,12 @@ import numpy as np
 from thermodata.errors import EffectError, unknown_name
 from thermodata.modelling.inputs.drivers import has_drivers, names_of
 from thermodata.modelling.inputs.lead import columns, led_drivers
-from thermodata.modelling.inputs.phases import activity_channels
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.files.model import EffectSpec
+from thermodata.view.grid.at_work import activity_channels
 from thermodata.view.grid.dataset import TestData
 
 OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions,

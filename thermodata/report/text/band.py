@@ -45,6 +45,18 @@ def band_text(band: Ahead, made: Sequence[Predicted]) -> list[str]:
     return lines
 
 
+def locked_lines(model: str, made: Sequence[Predicted]) -> list[str]:
+    """That locked tests are among those that were predicted, why no error stands there, and how it is asked for."""
+    locked = dict.fromkeys(f"{p.campaign}/{p.test}" for p in made if p.locked)
+    if not locked:
+        return []
+    are = "is locked: its error is" if len(locked) == 1 else "are locked: their errors are"
+    return [
+        f"{listed([*locked])} {are} not shown, for each look is counted; thermodata confirm {model} tells what the "
+        "model leaves on the locked tests of its campaigns"
+    ]
+
+
 def elsewhere_text(model: str, band: Ahead, made: Sequence[Predicted]) -> list[str]:
     """A line for each other machine that the model was asked about."""
     found: dict[str, dict[str, list[str]]] = {}

@@ -174,6 +174,17 @@ class Model(Strict):
     taken_back: str | None = Field(default=None, json_schema_extra=NOT_TYPED)
     notes: str = ""
 
+    @field_validator("campaign", mode="before")
+    @classmethod
+    def _one(cls, value: Any) -> Any:
+        if isinstance(value, list):
+            raise WrongValueError(
+                "several campaigns stand under 'campaigns'",
+                expected="campaign: ID, or campaigns: [ID, ID]",
+                hint=f"campaigns: [{', '.join(map(str, value))}]",
+            )
+        return value
+
     @field_validator("response", mode="before")
     @classmethod
     def _by_mappings(cls, value: Any) -> Any:

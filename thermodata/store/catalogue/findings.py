@@ -11,6 +11,7 @@ from pydantic import BaseModel
 from thermodata.errors import StoreError
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.locked_error import LockedError
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.document import readable
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import duckdb
 
 # what a question, by its first word, is answered with
-_DOCUMENTS: Mapping[str, type[BaseModel]] = {"diagnose": Diagnosis, "confirm": Confirmed}
+_DOCUMENTS: Mapping[str, type[BaseModel]] = {"diagnose": Diagnosis, "confirm": Confirmed, "locked": LockedError}
 _OF_A_DIAGNOSIS = ("diagnosis", "weak_spot", "candidate", "artefact")
 
 

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.errors import StoreError, unknown_name
+from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import TEMPORARY
 from thermodata.store.catalogue.create import LAYERS
@@ -26,12 +26,15 @@ _BATCH = 500  # files deleted in one turn at the catalogue: some 20 ms
 _OF_MODEL = ("fit", "score_row", "prediction", "finding")
 
 
-def forget(store: Store, campaign: str, test: str | None = None, *, earlier: bool = False) -> dict[str, Any]:
+def forget(
+    store: Store, campaign: str, test: str | None = None, *, earlier: bool = False, models: bool = False
+) -> dict[str, Any]:
     """Removes a campaign, or one test of it, with all that derives from it: calibrations, results, and (with the
     campaign) the models fitted to it. Models that used a forgotten test are marked stale. How often the locks of these
     tests were opened (`looks`) stays, and counts on where the same data are ingested again.
 
-    earlier: removes nothing but the earlier versions of files that changed.
+    earlier: removes nothing but the earlier versions of files that changed. models: with a campaign, models go that
+    span other campaigns too; without it these are a UsageError, and nothing is removed.
     The bytes go with the next `gc`. Source files outside the store are never touched. UsageError for a name that
     isn't there.
     """
@@ -46,18 +49,20 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
             n = forget_earlier(con, campaign, None if test is None else [test])
             return _answer(campaign, test, versions=n)
         gone = tests if test is None else [test]
+        if test is None and not models:
+            _refuse_models_of_others(con, campaign)
         stale: list[str] = []
-        models: list[str] = []
+        fitted: list[str] = []
         looks = keep_looks(con, campaign, gone)
         if test is None:
-            models = [
+            fitted = [
                 r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)", [campaign])
             ]
             for table in (*BY_TEST, "calibration", "campaign"):
                 con.execute(f"delete from {table} where campaign = ?", [campaign])
             for table in ("prediction", "score_row", "finding"):
                 con.execute(f"delete from {table} where campaign = ?", [campaign])
-            for model in models:
+            for model in fitted:
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
@@ -68,7 +73,26 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})
             con.execute("update campaign set data_version = data_version || '-' where campaign = ?", [campaign])
-    return _answer(campaign, test, tests=gone, models=models, stale=stale, looks=looks)
+    return _answer(campaign, test, tests=gone, models=fitted, stale=stale, looks=looks)
+
+
+def _refuse_models_of_others(con: duckdb.DuckDBPyConnection, campaign: str) -> None:
+    """UsageError for models that are of this campaign and of others, which would be lost there, too."""
+    rows = fetch(
+        con,
+        "select model, name, list_filter(campaigns, lambda c: c != $1) as others from model "
+        "where list_contains(campaigns, $1) and len(campaigns) > 1 order by created_at",
+        [campaign],
+    )
+    if rows:
+        named = "; ".join(f"{r['name']} {r['model']} (of {', '.join(r['others'])} too)" for r in rows)
+        raise UsageError(
+            f"models of '{campaign}' span other campaigns, and go with it",
+            expected="--models, which says that they may go",
+            got=named,
+            hint="thermodata model export MODEL --to yaml --out FOLDER keeps what is fitted; with the campaign's new "
+            "id in it, fit it before the old id is forgotten",
+        )
 
 
 def _answer(campaign: str, test: str | None, **gone: Any) -> dict[str, Any]:

@@ -54,8 +54,9 @@ class TestData:
     conditions: numbers in canonical units or text, machine attributes included. phases: name -> (from_s, to_s).
     start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day. recorded: channel -> where
     its samples stand in raw files. logged: channel -> the times between which its valid samples lie [s], of those at
-    even steps; beyond them its value is carried on. kept: what is made of this test alone and asked again, by who made
-    it; a changed copy begins anew.
+    even steps; beyond them its value is carried on. at_work: channel -> the value beyond which the machine works, as
+    all its tests tell it (`view.grid.at_work`); empty where the test stands alone. kept: what is made of this test
+    alone and asked again, by who made it; a changed copy begins anew.
     """
 
     __test__ = False
@@ -76,6 +77,7 @@ class TestData:
     channels: Mapping[str, ChannelInfo] = field(default_factory=dict)
     recorded: Mapping[str, Recorded] = field(default_factory=dict)
     logged: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    at_work: Mapping[str, float] = field(default_factory=dict)
     kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property

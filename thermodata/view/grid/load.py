@@ -21,6 +21,7 @@ from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.catalogue.data_version import joined, versions
+from thermodata.view.grid.at_work import with_limits
 from thermodata.view.grid.bins import Binned, Series, bin_tests
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.view.grid.describe import channel_infos, describe_tests
@@ -57,7 +58,7 @@ def load_dataset(
         shifted = {(*key, name) for key, table in infos.items() for name, info in table.items() if info.shifted}
         binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only, shifted)
         recorded = recorded_channels(con, wanted, {key: one.zero_ns for key, one in binned.items()})
-        tests = tuple(
+        tests = with_limits(
             _test_data(row, binned[row["campaign"], row["test"]], infos, recorded, step_s)
             for row in describe_tests(con, wanted)
             if (row["campaign"], row["test"]) in binned

@@ -23,7 +23,8 @@ class ModelRow:
     terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
     first. verdict: of its diagnosis, None where it has none. label: its name and version, and its id where another
-    model has these too. fitted: the last fit has the largest, of a version that is new or of an older one again."""
+    model has these too. fitted: the last fit has the largest, of a version that is new or of an older one again.
+    tests: how many it was fitted to."""
 
     model: str
     name: str
@@ -41,6 +42,7 @@ class ModelRow:
     verdict: str | None
     label: str
     fitted: int
+    tests: int
 
 
 _MODELS = """
@@ -54,11 +56,14 @@ e as (select h.model, max(h.version) as version,
              max(h.rmse_um_verification) filter (u.unit is not distinct from f.unit) as verification
       from history h join first f on f.model = h.model
       left join u on u.model = h.model and u.response = h.response group by h.model),
+n as (select model, count(distinct (campaign, test)) as tests from score_row
+      where role in ('calibration', 'verification (in-sample)') group by model),
 d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model)
 select m.model, m.name, coalesce(e.version, 1) as version, m.parent, m.created_at, m.stale, m.campaigns, m.response,
        m.rowid as fitted, -- a fit writes its row anew
-       coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
-from model m left join e on e.model = m.model left join d on d.model = m.model left join first u on u.model = m.model
+       coalesce(n.tests, 0) as tests, coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
+from model m left join n on n.model = m.model
+left join e on e.model = m.model left join d on d.model = m.model left join first u on u.model = m.model
 order by m.created_at desc, m.rowid desc"""
 
 
@@ -101,6 +106,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> Model
         r["verdict"],
         f"{_label(r)} ({r['model'][:6]})" if again else _label(r),
         int(r["fitted"]),
+        int(r["tests"]),
     )
 
 

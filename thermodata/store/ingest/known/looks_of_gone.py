@@ -70,14 +70,17 @@ def count_on(
         return
     noted = fetch(con, "select rowid as place, payload from finding where kind = ? order by rowid", [FORGOTTEN])
     found = [(row["place"], json.loads(row["payload"])) for row in noted]
-    for test in sorted(tests) if found else ():
+    elsewhere = _looked_at_elsewhere(con, campaign, tests)
+    for test in sorted(tests) if found or elsewhere else ():
         own = [(place, one) for place, one in found if (one["campaign"], one["test"]) == (campaign, test)]
         same = [(place, one) for place, one in found if _is_of(one, campaign, test, rows)]
-        if not own and not same:
+        twins = [key for key, one in elsewhere.items() if _is_of(one, campaign, test, rows)]
+        if not own and not same and not twins:
             continue
         now = _looks(con, campaign, test)
         # a version that noted no looks left them where they were
         before = [look for _, one in same for look in one.get("looks", now)]
+        before += [look for key in twins for look in _looks(con, *key)]
         looks = [list(look) for look in dict.fromkeys(map(tuple, [*(now if stay else ()), *before]))]
         con.execute("delete from locked_look where campaign = ? and test = ?", [campaign, test])
         insert(
@@ -90,6 +93,18 @@ def count_on(
         )
         back = [place for place, one in same if (one["campaign"], one["test"]) == (campaign, test)]
         con.execute("delete from finding where kind = ? and list_contains(?, rowid)", [FORGOTTEN, back])
+
+
+def _looked_at_elsewhere(
+    con: duckdb.DuckDBPyConnection, campaign: str, tests: Collection[str]
+) -> dict[tuple[str, str], dict[str, Any]]:
+    """(campaign, test) of each other test that the store has and whose lock was opened -> what it is of."""
+    rows = con.execute("select distinct campaign, test from locked_look semi join test using (campaign, test)")
+    return {
+        (c, t): {"campaign": c, "test": t, **_stored(con, c, t)}
+        for c, t in rows.fetchall()
+        if c != campaign or t not in tests
+    }
 
 
 def _is_of(noted: Mapping[str, Any], campaign: str, test: str, rows: Rows) -> bool:

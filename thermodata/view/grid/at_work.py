@@ -1,0 +1,52 @@
+"""Beyond which value of a channel a machine works: told by all its tests together, for in one that rests throughout the
+largest value is noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.plugin import Float1D
+from thermodata.view.grid.dataset import TestData
+
+ACTIVITY = ("rotational_speed", "feed", "power", "load")
+METERED = ("power", "load")  # measured, with noise; speeds and feeds are numbers of a control
+SHARE = 0.02  # of its largest value
+NOISES = 5.0  # standard deviations of what a meter reads at rest: the largest of a million samples
+FEWEST = 10  # samples that tell a noise
+
+
+def activity_channels(test: TestData) -> list[str]:
+    """The channels that tell when the machine works."""
+    return [name for name, info in test.channels.items() if info.quantity in ACTIVITY and name in test.values]
+
+
+def with_limits(tests: Iterable[TestData]) -> tuple[TestData, ...]:
+    """The same tests, each with the limits of its machine in `at_work`."""
+    listed = tuple(tests)
+    machines: dict[str, list[TestData]] = {}
+    for test in listed:
+        machines.setdefault(test.machine, []).append(test)
+    limits = {machine: limits_of(some) for machine, some in machines.items()}
+    return tuple(replace(t, at_work=limits[t.machine]) for t in listed)
+
+
+def limits_of(tests: Sequence[TestData]) -> dict[str, float]:
+    """Channel -> the value that its size is beyond while the machine works [its unit]. Absent where it is always 0."""
+    found = {}
+    for name in {n: None for t in tests for n in activity_channels(t)}:
+        courses = [t.values[name][np.isfinite(t.values[name])] for t in tests if name in t.values]
+        largest = max((float(np.abs(x).max(initial=0.0)) for x in courses), default=0.0)
+        metered = any(t.channels[name].quantity in METERED for t in tests if name in t.channels)
+        if largest > 0:
+            found[name] = max(SHARE * largest, NOISES * _noise(courses) if metered else 0.0)
+    return found
+
+
+def _noise(courses: Sequence[Float1D]) -> float:
+    """Standard deviation of a meter from one sample to the next, in the test where it moves least: in others the
+    machine moves it."""
+    steps = [np.abs(np.diff(x)) for x in courses if len(x) >= FEWEST]
+    return min((1.4826 * float(np.median(s)) / np.sqrt(2.0) for s in steps), default=0.0)
