@@ -34,7 +34,7 @@ def test_what_they_do_goes_with_how_many_they_are(n: int, said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("seconds", "said"), [(300.0, "5 min"), (4440.0, "74 min"), (9000.0, "2.5 h"), (399_600.0, "4.63 days")]
+    ("seconds", "said"), [(300.0, "5 min"), (4440.0, "74 min"), (9000.0, "2.5 h"), (406_080.0, "4.7 days")]
 )
 def test_a_length_of_time_is_said_in_the_unit_of_people(seconds: float, said: str) -> None:
     assert how_long(seconds) == said
