@@ -14,7 +14,7 @@ from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims import refinement
 from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
 from thermodata.diagnosis.claims.refinement import Refinement
-from thermodata.diagnosis.claims.refines import PART, elsewhere_of, mode_of, not_advised
+from thermodata.diagnosis.claims.refines import PART, by_kind, elsewhere_of, mode_of, not_advised
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.question.problem import Problem
@@ -188,6 +188,16 @@ def test_the_same_effect_by_another_sensor_is_told_as_that() -> None:
     assert told == elsewhere_of(["term0"])
     assert "by another sensor" in told
     assert said(cause("same", name="known0", channels=("T_0",))) == MODE
+
+
+def test_a_mode_that_no_other_candidate_is_like_is_one_by_its_kind() -> None:
+    """The tests tell it apart: to say that they can't would contradict the figures beside it."""
+    told = by_kind(mode_of(["spindle_bearing"]), "from 1.20 to 0.635 um")
+    assert "another mode of spindle_bearing, which the model has, by its kind: no other candidate does" in told
+    assert "goes from 1.20 to 0.635 um (add it" in told
+    assert "can't tell" not in told
+    unnamed = mode_of([], ["cut:P"])
+    assert by_kind(unnamed, "from 2 to 1 um") == unnamed, "another heat would explain it as well"
 
 
 def test_a_mode_of_nothing_in_particular_is_one_of_what_the_model_has() -> None:

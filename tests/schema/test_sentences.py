@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.schema.words.durations import how_long
 from thermodata.schema.words.sentences import counted, listed, with_count, with_dots
 
 
@@ -30,3 +31,10 @@ def test_one_of_a_thing_is_no_many(n: int, one: str, said: str) -> None:
 @pytest.mark.parametrize(("n", "said"), [(1, "1 more file was"), (0, "0 more files were"), (3, "3 more files were")])
 def test_what_they_do_goes_with_how_many_they_are(n: int, said: str) -> None:
     assert counted(n, "more file", "was", "were") == said
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"), [(300.0, "5 min"), (4440.0, "74 min"), (9000.0, "2.5 h"), (406_080.0, "4.7 days")]
+)
+def test_a_length_of_time_is_said_in_the_unit_of_people(seconds: float, said: str) -> None:
+    assert how_long(seconds) == said

@@ -10,7 +10,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
-from thermodata.diagnosis.claims.refines import not_advised
+from thermodata.diagnosis.claims.refines import by_kind, not_advised
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell.of_locked import said_by_locked
@@ -62,17 +62,21 @@ def why(
     *,
     of_model: bool = True,
     against: str = "",
+    has_twins: bool = True,
 ) -> str:
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
     told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
     by_name: what says the same of its channels by a name, and has its probability stated. against: why a refinement
-    is not to be added, where that is so."""
+    is not to be added, where that is so. has_twins: whether others do the same in these tests."""
     numbers = _figures(s, told, judged_beside(s, member, investigation, judgement), investigation, of_model=of_model)
     if member is not None and among(member, judgement.claims):
         return f"{numbers}{_claimed(s, member, investigation, judgement, held)}"
     refused = among(member, judgement.refused)
     if member is not None and member.refines and not refused:
-        return f"{numbers}; a refinement, not claimed as missing: {not_advised(member.refines, against)}"
+        refines = member.refines
+        if not has_twins and len((of_all := told or s).rows):
+            refines = by_kind(refines, from_to(*_left_out(of_all), investigation.problem.unit, "from", "to"))
+        return f"{numbers}; a refinement, not claimed as missing: {not_advised(refines, against)}"
     reason = _refused(s, judgement) if refused else _not_claimed(s, member, investigation, judgement, by_name)
     return f"{numbers}; not claimed: {reason}"
 

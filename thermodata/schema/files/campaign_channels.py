@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from thermodata.schema.strict.declared import (
     NOT_NEGATIVE,
@@ -13,12 +13,14 @@ from thermodata.schema.strict.declared import (
     At,
     Attributed,
     Direction,
+    MissingKeyError,
     Seconds,
     Strict,
     Um,
     Value,
 )
 from thermodata.schema.units.quantity import MEASURED, Quantity
+from thermodata.schema.units.quantity_of import quantities_of
 
 
 class Sensor(Attributed):
@@ -44,7 +46,8 @@ class Channel(Strict):
     signal: its name in the file; a unit in brackets behind the name may be left out
     derive: an expression over other channels: (dY_high - dY_low) / 100 mm
     schedule: [[time, value], ...] for what nobody logged but everybody knows; held between
-    quantity: what it is; its canonical unit follows
+    quantity: what it is; its canonical unit follows. Left out, it is what `unit` leaves no choice of (degC, rpm, kW,
+        m/min), and of a length a displacement with `axis` or at tcp, a position at axis.*
     unit: of the raw values, where the file does not say it
     instead_of: the unit that the file states, where that is wrong and `unit` is right
     scaled: true: the values have the factor and the offset that the file states beside them
@@ -59,6 +62,8 @@ class Channel(Strict):
         them (false); for what is set, `ingest` tells it from the rows
     notes: free text
     """
+
+    model_config = ConfigDict(json_schema_extra=lambda schema: _may_lack_quantity(schema))
 
     source: str | None = None
     signal: str | None = None
@@ -82,6 +87,18 @@ class Channel(Strict):
         """Whether the files of a test need not have the signal."""
         return test in self.missing_in or (bool(self.only_in) and test not in self.only_in)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _quantity_by_its_unit(cls, value: Any) -> Any:
+        if not isinstance(value, dict) or "quantity" in value or not value.keys() <= cls.model_fields.keys():
+            return value  # a misspelt key may be the quantity
+        texts = {key: v if isinstance(v := value.get(key), str) else None for key in ("unit", "axis", "at")}
+        unit = str(value["unit"]) if value.get("unit") is not None else ""
+        words = quantities_of(unit, texts["axis"], texts["at"]) if unit else ()
+        if len(words) == 1 and value.get("calibration") is None:  # which may change the unit
+            return {**value, "quantity": words[0]}
+        raise MissingKeyError("quantity", words or get_args(Quantity))
+
     @model_validator(mode="after")
     def _one_origin(self) -> Channel:
         origins = [k for k in ("signal", "derive", "schedule") if getattr(self, k) is not None]
@@ -100,6 +117,13 @@ class Channel(Strict):
                 "'only_in' and 'missing_in' say the same, one of the tests and one of the others: write one"
             )
         return self
+
+
+def _may_lack_quantity(schema: dict[str, Any]) -> None:
+    """Of the published schema: a channel is complete without, where its unit says it."""
+    schema["required"] = [key for key in schema["required"] if key != "quantity"]
+    if not schema["required"]:
+        del schema["required"]
 
 
 class JumpCalibration(Strict):

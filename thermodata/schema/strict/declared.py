@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
@@ -29,6 +29,14 @@ class WrongKeyError(ValueError):
     def __init__(self, key: str, what: str, *, expected: str, hint: str) -> None:
         super().__init__(what)
         self.key, self.expected, self.hint = key, expected, hint
+
+
+class MissingKeyError(ValueError):
+    """A key that nothing else of its mapping tells, with the words that it may have."""
+
+    def __init__(self, key: str, words: Sequence[str]) -> None:
+        super().__init__(f"the key '{key}' is missing")
+        self.key, self.words = key, tuple(words)
 
 
 class WrongValueError(ValueError):

@@ -9,9 +9,10 @@ from typing import Any, TypeVar, get_args
 from pydantic import BaseModel, ValidationError
 
 from thermodata.errors import SpecError, nearest
-from thermodata.schema.strict.declared import NOT_TYPED, WrongKeyError, WrongValueError
+from thermodata.schema.strict.declared import NOT_TYPED, MissingKeyError, WrongKeyError, WrongValueError
 from thermodata.schema.strict.explain_types import missed, wanted
 from thermodata.schema.strict.lines import Document, Place, at_place, dotted_place
+from thermodata.schema.words.sentences import listed
 
 M = TypeVar("M", bound=BaseModel)
 SHOWN = 8
@@ -115,6 +116,12 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
             f"the key '{name}' is missing", where=document.where(place[:-1]), expected=f"{dotted_place(place)}: ..."
         )
     fault = detail.get("ctx", {}).get("error")
+    if isinstance(fault, MissingKeyError):
+        return SpecError(
+            str(fault),
+            where=document.where(place),
+            expected=f"{dotted_place((*place, fault.key))}: {listed(fault.words, 'or')}",
+        )
     if isinstance(fault, WrongKeyError):
         return SpecError(
             str(fault),

@@ -13,6 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from thermodata.plugin import Float2D
+from thermodata.schema.words.durations import how_long
 from thermodata.schema.words.sentences import listed
 from thermodata.store.ingest.told.ends import LEAST_S, Rows, ends_of, pairs
 from thermodata.store.ingest.told.whole_hours import whole_hours
@@ -83,7 +84,7 @@ class OddClock:
         names = listed([f"'{t}'" for t in tests])
         return (
             f"test{'' if len(tests) == 1 else 's'} {names}: source '{self.late}' begins and ends "
-            f"{self.shift_s / 60:.3g} min later beside '{self.early}' than in the {self.others} other tests, in which "
+            f"{how_long(self.shift_s)} later beside '{self.early}' than in the {self.others} other tests, in which "
             "both ends agree"
         )
 

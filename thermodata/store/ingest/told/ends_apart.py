@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
+from thermodata.schema.words.durations import how_long
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.ingest.told.ends import ends_of, run_through
 
@@ -14,13 +15,14 @@ _NAMED = 6
 
 def ends_apart(rows: Mapping[str, Iterable[Mapping[str, Any]]], responses: Collection[str]) -> list[str]:
     """A sentence for each two sources and each end. rows: test -> its rows of the table `source`. responses: the
-    sources of displacements, which a log of drivers has to last as long as, but for one that runs through several
-    tests and is cut to each of them."""
+    sources of displacements, which a log of drivers has to last as long as. A log that runs through several tests is
+    cut to each of them: of neither kind is its end known from its rows, for it may pause between them."""
     found: dict[tuple[str, str, str], list[str]] = {}
     of_tests = {test: ends_of(of_test) for test, of_test in rows.items()}
-    measured = set(responses) - run_through(of_tests)
-    for test, ends in of_tests.items():
-        of = [s for s in ends if s in measured]
+    through = run_through(of_tests)
+    for test, every in of_tests.items():
+        ends = {source: own for source, own in every.items() if source not in through}
+        of = [s for s in ends if s in responses]
         if not of:
             continue
         last, first = max(of, key=lambda s: ends[s].last), min(of, key=lambda s: ends[s].first)
@@ -30,7 +32,7 @@ def ends_apart(rows: Mapping[str, Iterable[Mapping[str, Any]]], responses: Colle
                 (own.first - ends[first].first, "begins {} after", first),
             ):
                 if by_s >= LEAST_S:
-                    found.setdefault((source, words, other), []).append(f"{by_s / 60:.3g} min in {test}")
+                    found.setdefault((source, words, other), []).append(f"{how_long(by_s)} in {test}")
     return [
         f"source '{source}' {words.format('long')} '{other}': {with_count(tests, _NAMED)}; what it alone measured is "
         f"not known there, and a model takes its {'last' if 'ends' in words else 'first'} value for up to half an hour"

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.schema.words.durations import how_long
 from thermodata.store.ingest.told.ends import LEAST_S, Rows, pairs
 from thermodata.store.ingest.told.whole_hours import LEAST
 
@@ -37,7 +38,7 @@ class OffsetApart:
             else "was it meant for another log? Keep it where samples came late within a log whose clock was right"
         )
         return (
-            f"source '{self.source}' begins and ends {abs(self.late_s) / 60:.3g} min {way} than '{self.other}' in all "
+            f"source '{self.source}' begins and ends {how_long(abs(self.late_s))} {way} than '{self.other}' in all "
             f"{self.tests} tests that have both, with the clock: {{offset: {self.offset_s:.0f} s}} that is declared; "
             f"{instead} both ends agree. An offset is added to the times of its source: that of a clock that is slow "
             f"is positive, of one that is ahead negative; {was}"
