@@ -73,7 +73,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     table = find_table(folder, found.others, ids)
     of_groups = _channels(groups, of_probes)
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
-    sources = asked_once(_sources(groups, keyed, table, found, before), groups)
+    sources = asked_once(_sources(folder, groups, keyed, table, found, before), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
@@ -153,7 +153,12 @@ def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest
 
 
 def _sources(
-    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan, before: ZonesBefore
+    folder: Path,
+    groups: Sequence[Group],
+    keyed: Mapping[str, Named],
+    table: TestTable | None,
+    found: Scan,
+    before: ZonesBefore,
 ) -> tuple[DraftSource, ...]:
     aligned = {a.source: a for a in alignments(groups, keyed)}
     zones = {g.source: zone_as_before(g, groups, before.of(g)) for g in groups}
@@ -166,7 +171,9 @@ def _sources(
             g.source,
             g.reader,
             g.template,
-            tuple(filter(None, _questions(g, groups, aligned, table, found, None if zones[g.source] else before))),
+            tuple(
+                filter(None, _questions(folder, g, groups, aligned, table, found, None if zones[g.source] else before))
+            ),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -246,6 +253,7 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _questions(
+    folder: Path,
     group: Group,
     groups: Sequence[Group],
     aligned: Mapping[str, Alignment],
@@ -255,7 +263,7 @@ def _questions(
 ) -> Iterator[str | None]:
     """What is asked of a source. before: the zones that were declared; None where its own is known."""
     yield from (hinted(a, group, groups) for a in group.asks)
-    if before is not None and (asked := zone_question(group, groups)):
+    if before is not None and (asked := zone_question(group, groups, folder)):
         yield asked + before.said()
     yield from _of_clocks(group, groups, aligned)
     yield from group.questions
