@@ -17,13 +17,14 @@ from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, Draf
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
 from thermodata.draft.courses.warm import warm_starts
+from thermodata.draft.files.by_listed_times import parted_by_lists
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.legend import with_legends
-from thermodata.draft.folder.lists_of_tests import lists_apart
+from thermodata.draft.folder.lists_of_tests import lists_apart, times_listed
 from thermodata.draft.folder.notes import described_in, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
@@ -36,6 +37,7 @@ from thermodata.draft.folder.table import TestTable, closed_workbooks, find_tabl
 from thermodata.draft.probes.jumps import JumpTest, jump_of
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
+from thermodata.draft.times.beside_list import not_as_listed
 from thermodata.draft.times.clocks import (
     Alignment,
     Named,
@@ -59,6 +61,8 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
     found = saved_once(lists_apart(folder, found))
+    logs, through = parted_by_lists(found.logs, [times_listed(folder, p) for p in found.others])
+    found = replace(found, logs=logs)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, legends = with_legends(folder, found)
@@ -80,6 +84,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
     notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
     warm = warm_starts(recordings, named)
+    otherwise = not_as_listed(recordings, table.times if table else {})
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     known = [j for of_source in of_probes.values() for j in of_source]
@@ -94,13 +99,17 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        tuple(drafted_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t)) for t in ids),
+        tuple(
+            drafted_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t), otherwise.get(t, ()))
+            for t in ids
+        ),
         table,
         left_out,
         found.damaged,
         (
             *counted_on(groups),
             *joined,
+            *through,
             *mended_clocks(groups),
             *legends,
             *clocks_said(folder, described_in(folder, texts)),
