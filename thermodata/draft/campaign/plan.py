@@ -32,6 +32,7 @@ from thermodata.draft.folder.packed_pieces import packed_pieces
 from thermodata.draft.folder.saved_twice import saved_once
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.sensor_files import with_their_sensors
+from thermodata.draft.folder.sensors_described import with_sensors_described
 from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.folder.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.probes.jumps import JumpTest, jump_of
@@ -65,7 +66,9 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     found = replace(found, logs=logs)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
+    found, described = with_sensors_described(folder, found)
     found, legends = with_legends(folder, found)
+    legends = [*described, *legends]
     beside = [x for x in beside if not any(told.startswith(f"{x[0]} says") for told in legends)]
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
