@@ -189,3 +189,23 @@ def test_which_pass_is_asked_of_a_file_that_begins_its_test(
     (asked,) = [q for s in draft.sources for q in s.questions if q.startswith("timezone?")]
     assert ("start: 2026-10-25T02:05:00+02:00 for the first pass" in asked) is asks
     assert [t.id for t in draft.tests] == ["a1", "b2"]
+
+
+@pytest.mark.parametrize(
+    ("names", "heads", "said"),
+    [
+        (("hall_MESZ", "hall_MEZ"), ("", ""), ("first pass, as 'MESZ' says", "second pass, as 'MEZ' says")),
+        (("a", "b"), ("# Sommerzeit\n", "# Winterzeit\n"), ("as 'Sommerzeit' says", "as 'Winterzeit' says")),
+        (("a_CEST", "b"), ("", ""), ("first pass, as 'CEST' says", "for the first pass, 2026-10-25T02:05:00+01:00")),
+        (("a_EST", "b"), ("", ""), ("a_EST.csv lie", "for the first pass, 2026-10-25T02:05:00+01:00")),
+    ],
+)
+def test_words_tell_the_pass_of_logs_in_the_hour_that_repeats(
+    tmp_path: Path, names: tuple[str, str], heads: tuple[str, str], said: tuple[str, str]
+) -> None:
+    at = np.datetime64("2026-10-25T02:05:00") + np.arange(90) * np.timedelta64(30, "s")
+    rows = "\n".join(["time;T_hall [degC];T_floor [degC]", *(f"{x};{20 + k / 90:.2f};19.5" for k, x in enumerate(at))])
+    for name, head in zip(names, heads, strict=True):
+        (tmp_path / f"{name}.csv").write_text(f"{head}{rows}\n")
+    (asked,) = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert all(part in asked for part in said)

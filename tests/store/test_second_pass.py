@@ -267,3 +267,51 @@ def test_a_log_tells_it_by_the_clock_that_is_declared_of_it(
     written(tmp_path / "daq_a.csv", began, 300, "T_f", "Z")
     summary = made(tmp_path, more=", clock: {resets: allow}", beside=beside)
     assert any("was set back by 60 min" in str(x["reason"]) for x in summary.losses) is told
+
+
+@pytest.mark.parametrize(
+    ("name", "head", "second"),
+    [
+        ("nc_a_MESZ.csv", "", False),
+        ("nc_a_MEZ.csv", "", True),
+        ("nc_a_Winterzeit.csv", "", True),
+        ("nc_a.csv", "# Uhr: CEST\n", False),
+        ("nc_a.csv", "# letní čas\n", False),
+        ("nc_a.csv", "# clock in standard time\n", True),
+        ("nc_a_CET.csv", "# Sommerzeit\n", None),
+        ("nc_a_MSK.csv", "", None),
+        ("nc_a.csv", "# Sommerzeit: ein\n", None),
+        ("nc_a.csv", "# CEST, since 03:00 CET\n", None),
+    ],
+)
+def test_words_in_its_name_or_above_its_rows_say_the_pass(
+    tmp_path: Path, name: str, head: str, second: bool | None
+) -> None:
+    """Unless name and head disagree, or a line says both; a switch of the logger says none."""
+    written(tmp_path / name, LOCAL, 45, "T_m")
+    (tmp_path / name).write_text(head + (tmp_path / name).read_text(encoding="utf-8"), encoding="utf-8")
+    summary = made(tmp_path)
+    assert first_of(tmp_path, "T_m") == LOCAL - timedelta(hours=1 if second else 2)
+    assert (asked(summary) == []) is (second is not None)
+
+
+@pytest.mark.parametrize(
+    ("line", "hours"),
+    [
+        ("Start: 25.10.2026 02:05:00 Sommerzeit", 2),
+        ("Beginn (Winterzeit): 25.10.2026 02:05:00", 1),
+        ("Start: 25.10.2026 02:05:00 heure d'hiver", 1),
+    ],
+)
+def test_a_word_beside_the_start_above_the_rows_says_the_pass(tmp_path: Path, line: str, hours: int) -> None:
+    rows = "".join(f"{30 * k};{20 + k / 90:.2f}\n" for k in range(90))
+    (tmp_path / "nc_a.csv").write_text(f"{line}\ntime [s];T_m\n{rows}")
+    summary = made(tmp_path)
+    assert first_of(tmp_path, "T_m") == LOCAL - timedelta(hours=hours)
+    assert not asked(summary)
+
+
+def test_what_is_declared_or_recorded_beside_it_counts_more_than_a_word(tmp_path: Path) -> None:
+    written(tmp_path / "nc_a_MEZ.csv", LOCAL, 45, "T_m")
+    made(tmp_path, start=', start: "2026-10-25T02:05:00+02:00"')
+    assert first_of(tmp_path, "T_m") == LOCAL - timedelta(hours=2)

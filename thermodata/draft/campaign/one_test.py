@@ -14,6 +14,7 @@ from thermodata.draft.folder.notes import Note
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.folder.table import TestTable
 from thermodata.draft.probes.jump_within import window_behind_jumps
+from thermodata.draft.times.beside_list import start_listed
 from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import Named
 from thermodata.draft.words.roles import said_by_list
@@ -27,7 +28,9 @@ def drafted_test(
     warm: str | None,
     version: RawFile | None,
     note: Note | None,
+    otherwise: Sequence[str] = (),
 ) -> DraftTest:
+    """otherwise: what its logs say of when it ran that a table does not."""
     files = [f for g in groups for f in g.tests.get(test, ())]
     listed = table.rows.get(test, {}) if table else {}
     kind = kind_of(test, files, listed)
@@ -40,11 +43,17 @@ def drafted_test(
             doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
             continue
         conditions[key] = value
+    start, began = start_listed(files, table.times.get(test) if table else None)
+    kind = replace(kind, start=start) if start is not None and kind.start is None else kind
+    doubts += [*filter(None, [began]), *otherwise]
     if note is not None:
         kind, more = with_note(kind, conditions, note)
         doubts += more
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    window = next((f.block.window for f in files if f.block is not None), None)
+    block = next((f.block for f in files if f.block is not None), None)
+    window = None if block is None else block.window
+    if block is not None and block.said is not None:
+        doubts.append(f"window: {block.said}; history: recording where it does not begin at rest")
     if window is not None and len(files) > 1:
         doubts.append(window_question(files))
     if window is None and (jumps := window_behind_jumps(files)) is not None:

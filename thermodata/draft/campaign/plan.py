@@ -17,13 +17,14 @@ from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, Draf
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
 from thermodata.draft.courses.warm import warm_starts
+from thermodata.draft.files.by_listed_times import parted_by_lists
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.legend import with_legends
-from thermodata.draft.folder.lists_of_tests import lists_apart
+from thermodata.draft.folder.lists_of_tests import lists_apart, times_listed
 from thermodata.draft.folder.notes import described_in, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
@@ -31,11 +32,13 @@ from thermodata.draft.folder.packed_pieces import packed_pieces
 from thermodata.draft.folder.saved_twice import saved_once
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.sensor_files import with_their_sensors
+from thermodata.draft.folder.sensors_described import with_sensors_described
 from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.folder.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.probes.jumps import JumpTest, jump_of
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
+from thermodata.draft.times.beside_list import not_as_listed
 from thermodata.draft.times.clocks import (
     Alignment,
     Named,
@@ -59,9 +62,13 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
     found = saved_once(lists_apart(folder, found))
+    logs, through = parted_by_lists(found.logs, [times_listed(folder, p) for p in found.others])
+    found = replace(found, logs=logs)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
+    found, described = with_sensors_described(folder, found)
     found, legends = with_legends(folder, found)
+    legends = [*described, *legends]
     beside = [x for x in beside if not any(told.startswith(f"{x[0]} says") for told in legends)]
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
@@ -73,13 +80,14 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     table = find_table(folder, found.others, ids)
     of_groups = _channels(groups, of_probes)
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
-    sources = asked_once(_sources(groups, keyed, table, found, before), groups)
+    sources = asked_once(_sources(folder, groups, keyed, table, found, before), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
     recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
     notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
     warm = warm_starts(recordings, named)
+    otherwise = not_as_listed(recordings, table.times if table else {})
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     known = [j for of_source in of_probes.values() for j in of_source]
@@ -94,13 +102,17 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        tuple(drafted_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t)) for t in ids),
+        tuple(
+            drafted_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t), otherwise.get(t, ()))
+            for t in ids
+        ),
         table,
         left_out,
         found.damaged,
         (
             *counted_on(groups),
             *joined,
+            *through,
             *mended_clocks(groups),
             *legends,
             *clocks_said(folder, described_in(folder, texts)),
@@ -153,7 +165,12 @@ def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest
 
 
 def _sources(
-    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan, before: ZonesBefore
+    folder: Path,
+    groups: Sequence[Group],
+    keyed: Mapping[str, Named],
+    table: TestTable | None,
+    found: Scan,
+    before: ZonesBefore,
 ) -> tuple[DraftSource, ...]:
     aligned = {a.source: a for a in alignments(groups, keyed)}
     zones = {g.source: zone_as_before(g, groups, before.of(g)) for g in groups}
@@ -166,7 +183,9 @@ def _sources(
             g.source,
             g.reader,
             g.template,
-            tuple(filter(None, _questions(g, groups, aligned, table, found, None if zones[g.source] else before))),
+            tuple(
+                filter(None, _questions(folder, g, groups, aligned, table, found, None if zones[g.source] else before))
+            ),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -246,6 +265,7 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _questions(
+    folder: Path,
     group: Group,
     groups: Sequence[Group],
     aligned: Mapping[str, Alignment],
@@ -255,7 +275,7 @@ def _questions(
 ) -> Iterator[str | None]:
     """What is asked of a source. before: the zones that were declared; None where its own is known."""
     yield from (hinted(a, group, groups) for a in group.asks)
-    if before is not None and (asked := zone_question(group, groups)):
+    if before is not None and (asked := zone_question(group, groups, folder)):
         yield asked + before.said()
     yield from _of_clocks(group, groups, aligned)
     yield from group.questions

@@ -48,10 +48,12 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Rows of a table that are one of the tests in it. window: from and to, since the first row of the table [s]."""
+    """Rows of a table that are one of the tests in it. window: from and to, since the first row of the table [s];
+    said: by what, where no column of it names the test."""
 
     test: str
     window: tuple[float, float]
+    said: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -67,7 +67,7 @@ class Legend:
 def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     """The logs, their signals described by the first table that names them; and a note on it. A description that stands
     in a log itself counts more. What a workbook of our own says is of its own sheets."""
-    names = {_word(s.name) for f in found.logs for s in f.signals}
+    names = {word_of(s.name) for f in found.logs for s in f.signals}
     logs_of_many = [f for f in found.logs if len(f.signals) > 1]  # a file of one may be called as its signal is
     tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
@@ -82,17 +82,17 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
                 if file in books and any(s.own for s in legend.says.values()):
                     own[file] = legend
                     break
-                logs = tuple(_described(f, legend) for f in found.logs)
+                logs = tuple(described_by(f, legend) for f in found.logs)
                 left = tuple(x for x in found.ignored if x[0] != file)
                 return replace(found, logs=logs, ignored=left), [legend.note()]
     if not own:
         return found, []
-    logs = tuple(_described(f, own[str(f.path)]) if str(f.path) in own else f for f in found.logs)
+    logs = tuple(described_by(f, own[str(f.path)]) if str(f.path) in own else f for f in found.logs)
     return replace(found, logs=logs), [next(iter(own.values())).note()]
 
 
-def _word(name: str) -> str:
-    """'t01' of 'Temp/T01 [°C]', and of 'ns=3;s="DB_Thermo"."T01"'."""
+def word_of(name: str) -> str:
+    """The last word of a name, in lower case: 't01' of 'Temp/T01 [°C]', and of 'ns=3;s="DB_Thermo"."T01"'."""
     found: list[str] = re.findall(r"\w+", split_unit(name)[0].casefold())
     return found[-1] if found else ""
 
@@ -187,9 +187,11 @@ def _is_words(cell: str) -> bool:
     return sum(map(str.isalpha, cell)) >= _SHORTEST and not is_unit(cell)
 
 
-def _described(file: RawFile, legend: Legend) -> RawFile:
+def described_by(file: RawFile, legend: Legend) -> RawFile:
+    """The file, its signals described by a legend where it does not describe them itself."""
+
     def told(signal: Signal) -> Signal:
-        said = legend.says.get(_word(signal.name))
+        said = legend.says.get(word_of(signal.name))
         if said is None or signal.properties.get("description"):
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}

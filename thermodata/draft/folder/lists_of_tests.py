@@ -9,6 +9,7 @@ from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+from thermodata.draft.folder.listed_times import BEGIN, DURATION, END, ListedTime, listed_times
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.table import SUFFIXES, grids_of, is_called_table, there
 from thermodata.draft.words.listed import says
@@ -25,14 +26,6 @@ from thermodata.schema.words.sentences import with_count
 _KEY = (
     "test. test~id versuch. versuchs~nr run. lauf. nr. no. num. id. name. bezeichnung. essai. numero. proef. meting. "
     "messung. mereni. zkouska. prova. ensayo. 编号 序号 试验 测试 实验 名称 番号 試験 測定 実験"
-)
-_BEGIN = (
-    "start. begin. begins. began. beginn. anfang. von. from. debut. depart. van. aanvang. starttijd. begintijd. "
-    "startzeit. inizio. inicio. zacatek. od. 开始 起始 開始"
-)
-_END = (
-    "end. ends. ended. ende. stop. bis. to. until. fin. arret. tot. einde. eindtijd. stoptijd. endzeit. fine. konec. "
-    "do. duration. dauer. duree. duur. 结束 終了 停止 时长 時間長"
 )
 _ROLE = (
     "role. rolle. rol. use. purpose. zweck. verwendung. usage. utilisation. but. objet. doel. gebruik. remark. "
@@ -62,24 +55,36 @@ def _why(names: Sequence[str]) -> str:
 
 def listed_tests(folder: Path, path: str) -> list[str]:
     """The tests that a file lists, in its order; empty where it is no list."""
+    return _list_in(folder, path)[0]
+
+
+def times_listed(folder: Path, path: str) -> dict[str, ListedTime]:
+    """Test -> when it began and ended, in the order of a list; empty where a file is no list of tests, or says no
+    times."""
+    names, header, lines = _list_in(folder, path)
+    return listed_times(path, header, dict(zip(names, lines, strict=True))) if names else {}
+
+
+def _list_in(folder: Path, path: str) -> tuple[list[str], Sequence[str], Sequence[Sequence[str]]]:
+    """(the tests that a file lists, its header, a row each)"""
     own = there(folder / path) if Path(path).suffix.lower() in SUFFIXES else None
     grids = list(grids_of(own, _MOST_ROWS)) if own is not None else []
     for rows in grids:
         body = [r for r in rows if sum(map(bool, r)) >= 2]
         if len(body) >= 2 and (names := _named(body[0], body[1:], path)):
-            return names
-    return []
+            return names, body[0], body[1:]
+    return [], (), ()
 
 
 def _named(header: Sequence[str], lines: Sequence[Sequence[str]], path: str) -> list[str]:
     titles = [words(split_unit(t)[0]) for t in header]
-    column = next((i for i, t in enumerate(titles) if says(_KEY, t) and not says(f"{_BEGIN} {_END}", t)), None)
+    column = next((i for i, t in enumerate(titles) if says(_KEY, t) and not says(f"{BEGIN} {END} {DURATION}", t)), None)
     if column is None:
         return []
     names = [line[column].strip() if column < len(line) else "" for line in lines]
     if not all(names) or len(set(names)) < len(names) or _is_logged(header, lines):
         return []
-    begins = any(says(_BEGIN, t) for t in titles) and any(says(_END, t) for t in titles)
+    begins = any(says(BEGIN, t) for t in titles) and any(says(f"{END} {DURATION}", t) for t in titles)
     role = any(says(_ROLE, t) for t in titles)
     called = is_called_table(path) or says(_CALLED, words(Path(path).stem))
     # rows that are numbered may be means of a log, from one time to the next

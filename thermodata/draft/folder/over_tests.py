@@ -28,7 +28,7 @@ def over_tests(
             running = [f for f in files if _runs(f, first, last)]
             if len(running) != 1:
                 break
-            found[test] = running[0], _within(running[0], first, last)
+            found[test] = running[0], within(running[0], first, last)
         if len(found) == len(spans) and len({whole.path for whole, _ in found.values()}) < len(found):
             fits.append(found)
     if not fits:
@@ -44,7 +44,7 @@ def _runs(file: RawFile, first: int, last: int) -> bool:
     return begin is not None and end is not None and begin - _NEAR_NS <= first and last <= end + _NEAR_NS
 
 
-def _within(file: RawFile, first: int, last: int) -> RawFile:
+def within(file: RawFile, first: int, last: int) -> RawFile:
     """The file with the courses of a part of it. first, last: of that [ns]."""
     courses, extents = {}, {}
     for key, course in file.sample.courses.items():
@@ -56,4 +56,4 @@ def _within(file: RawFile, first: int, last: int) -> RawFile:
     return replace(file, sample=replace(file.sample, courses=courses, extents=extents, first_ns=begin, last_ns=end))
 
 
-__all__ = ["over_tests"]
+__all__ = ["over_tests", "within"]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 from typing import Any
 
 from thermodata.archive.unpacked import unpacked
+from thermodata.draft.folder.listed_times import ListedTime, listed_times
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.words.filenames import normal
 from thermodata.draft.words.listed import says
@@ -39,12 +40,14 @@ _QUANTITIES = (("speed", "rotational_speed"), ("feed", "feed"))
 
 @dataclass(frozen=True, slots=True)
 class TestTable:
-    """file: its path; key: its column that names the tests; rows: test -> condition -> value with unit."""
+    """file: its path; key: its column that names the tests; rows: test -> condition -> value with unit; times: test ->
+    when it began and ended, where the table says it."""
 
     __test__ = False
     file: str
     key: str
     rows: Mapping[str, Mapping[str, str]]
+    times: Mapping[str, ListedTime] = field(default_factory=dict)
 
 
 def find_table(
@@ -165,7 +168,8 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
             for c, name in conditions.items()
             if c < len(lines[i]) and (value := _with_unit(lines[i][c], header[c], name))
         }
-    return TestTable(file, header[key_column], found)
+    times = listed_times(file, header, {test: lines[i] for i, test in named.items()})
+    return TestTable(file, header[key_column], found, times)
 
 
 def _stem(cell: str) -> str:

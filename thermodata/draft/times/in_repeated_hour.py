@@ -5,20 +5,25 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
+from thermodata.reader.text.preamble.pass_words import lines_above, pass_said
 from thermodata.reader.times.repeated_hour import RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import utc_offset_ns
 from thermodata.store.ingest.reading.resolve import natural
 
+_SHOWN = 3  # tests of which a question says how they are read
 
-def which_pass(group: Group, groups: Sequence[Group], proposed: str) -> str:
-    """How the question of a zone goes on where a test begins with a file that lies in the hour that the proposed zone
-    repeats; of any other file a start tells nothing."""
+
+def which_pass(group: Group, groups: Sequence[Group], proposed: str, folder: Path | None = None) -> str:
+    """How the question of a zone goes on where tests begin with a file that lies in the hour that the proposed zone
+    repeats; of any other file a start tells nothing. folder: where heads of files can be read."""
     named = re.search(r"timezone: ([\w/+-]+)", proposed)
-    for test, files in group.tests.items() if named is not None else ():
-        zone = "" if named is None else named[1]
+    zone = "" if named is None else named[1]
+    read_so, asked = list[str](), list[str]()
+    for test, files in group.tests.items() if zone else ():
         first = next((f for f in files if _passes(f, zone)), None)
         passes = None if first is None else _passes(first, zone)
         if first is None or passes is None:
@@ -27,15 +32,30 @@ def which_pass(group: Group, groups: Sequence[Group], proposed: str) -> str:
         began = _local_ns(first, zone) or 0
         if all((at := _local_ns(f, zone)) is None or at >= began for f in others):
             said = f"; all times of {first.path.name} lie in the hour that this zone repeats"
-            if (told := _by_order(group, first, zone)) is not None:
-                second, other = told
-                where = f"in its {'second' if second else 'first'} pass, as {other.path.name} "
-                where += "before it says" if second else "behind it says"
-                return f"{said}, {where}: with it give the test its start: {passes[second]}"
-            return (
-                f"{said}: with it give the test its start: {passes[0]} for the first pass, {passes[1]} for the second"
-            )
-    return ""
+            if (words := _by_words(first, zone, folder)) is not None:
+                read = f"are read as of {_its(words[0])}, as '{words[1]}' says"
+                read_so.append(f"{said}, and {read}, at {passes[words[0]]}")
+            elif (told := _by_order(group, first, zone)) is not None:
+                where = f"as {told[1].path.name} {'before' if told[0] else 'behind'} it says"
+                asked.append(f"{said}, in {_its(told[0])}, {where}: with it give the test its start: {passes[told[0]]}")
+            else:
+                asked.append(
+                    f"{said}: with it give the test its start: {passes[0]} for the first pass, {passes[1]} for the "
+                    "second"
+                )
+    return "".join((*read_so[:_SHOWN], *asked[:1]))
+
+
+def _its(second: bool) -> str:
+    return f"its {'second' if second else 'first'} pass"
+
+
+def _by_words(file: RawFile, zone: str, folder: Path | None) -> tuple[bool, str] | None:
+    """(whether a file is of the second pass, the word in its name or above its rows that says it); None where none
+    does, or both."""
+    hour = _hour_at(file.sample.first_ns or 0, zone)
+    lines = [] if folder is None else lines_above(folder / file.path)
+    return None if hour is None else pass_said([str(file.path), *lines], hour, zone)
 
 
 def _by_order(group: Group, file: RawFile, zone: str) -> tuple[bool, RawFile] | None:

@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.tables.zone_named import named_in
 
-_EXAMPLE = "e.g. timezone: Europe/Prague"
+EXAMPLE = "e.g. timezone: Europe/Prague"
 
 
 def named_zone(head: str | None, paths: Sequence[PurePosixPath]) -> str:
@@ -20,7 +20,7 @@ def named_zone(head: str | None, paths: Sequence[PurePosixPath]) -> str:
         return f"timezone: {told[1]}?"
     by_name = {stated_zone([path.stem]) or (named_in([path.stem]) or (None,))[0] for path in paths}
     zone = by_name.pop() if len(by_name) == 1 else None
-    return _EXAMPLE if zone is None else f"timezone: {zone}? as '{paths[0].name}' says"
+    return EXAMPLE if zone is None else f"timezone: {zone}? as '{paths[0].name}' says"
 
 
 def zone_in(ending: str) -> str | None:

@@ -7,12 +7,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
-from thermodata.draft.times.zone_of_names import named_zone, zone_in
+from thermodata.draft.times.zone_of_names import EXAMPLE, named_zone, zone_in
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.reader.times.step_back import likely_cause
 from thermodata.schema.words.sentences import with_count
@@ -40,17 +41,20 @@ _ZONES = (
 )
 
 
-def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
-    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
+def zone_question(group: Group, groups: Sequence[Group], folder: Path | None = None) -> str | None:
+    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates.
+    folder: where heads of its files can be read."""
     if not any(f.local for f in group.files):
         return None
     head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
-    said = "" if head is None else f"; {head}{_said_elsewhere(group)}"
-    likely = named_zone(head, [f.path for f in group.files])
+    elsewhere = _said_elsewhere(group)
+    said = "" if head is None else f"; {head}{elsewhere}"
+    # a zone of one offset is none of logs that name two
+    likely = EXAMPLE if elsewhere else named_zone(head, [f.path for f in group.files])
     each = _each_ahead(group, groups)
     if each is None:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
-        return asked + which_pass(group, groups, likely)
+        return asked + which_pass(group, groups, likely, folder)
     asked = f"timezone? local times, {_shown({e.hours for e in each})} from the other sources' UTC"
     if more := _as_well(each):
         hours = sorted({e.hours + m for e in each for m in (0, *more)})

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta, timezone
+from datetime import UTC, datetime, timedelta, timezone, tzinfo
 
 from thermodata.reader.times.zone import utc_offset_ns
 
@@ -11,6 +12,18 @@ _HOUR_S = 3600
 # begins the note on a file that tells local times and ends within a first pass, which nothing but their order proves
 ENDS = "its last local time lies in the hour that repeats"
 ALL = "all its local times lie in the hour that repeats"
+_HEAD_SAYS = re.compile(r"; '(?P<word>.+)' in its head says the (?P<which>first|second)$")
+
+
+def head_says(word: str, second: bool) -> str:
+    """How the note on a file goes on whose head has a word for one pass."""
+    return f"; '{word}' in its head says the {'second' if second else 'first'}"
+
+
+def said_by_head(note: str) -> tuple[bool, str] | None:
+    """(whether it is the second pass, the word) of such a note; None of others."""
+    match = _HEAD_SAYS.search(note)
+    return None if match is None else (match["which"] == "second", match["word"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +46,11 @@ class RepeatedHour:
     def offset(self, second: bool) -> timezone:
         """By how much local times are ahead of UTC in a pass; as a text 'UTC+02:00'."""
         return timezone(timedelta(seconds=(self.summer_ns - (self.shift_ns if second else 0)) / 1e9))
+
+    def abbreviation(self, zone: tzinfo, second: bool) -> str | None:
+        """What a zone calls its time in a pass: 'CEST', 'CET'."""
+        at = self.at_ns // 10**9 - (0 if second else 1)
+        return datetime.fromtimestamp(at, zone).tzname()
 
 
 def repeated_hour(zone: str, utc_ns: int) -> RepeatedHour | None:

@@ -9,7 +9,8 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.times.repeated_hour import ALL, ENDS, repeated_hour
+from thermodata.reader.text.preamble.pass_words import lines_above, pass_said
+from thermodata.reader.times.repeated_hour import ALL, ENDS, head_says, repeated_hour
 from thermodata.reader.times.zone import NO_ZONE
 
 
@@ -30,7 +31,9 @@ def pass_notes(
     if hour is None or not _local(reader, path, source):
         return []
     said, at = (ALL, first) if hour.in_first(first) else (ENDS, last)
-    return [f"{said}: {hour.written(at, second=False)}, or {hour.written(at, second=True)}"]
+    told = pass_said(lines_above(path), hour, source.timezone) if said == ALL else None
+    told_by = "" if told is None else head_says(told[1], second=told[0])
+    return [f"{said}: {hour.written(at, second=False)}, or {hour.written(at, second=True)}{told_by}"]
 
 
 def _local(reader: Reader, path: Path, source: Source) -> bool:

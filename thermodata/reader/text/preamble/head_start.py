@@ -16,6 +16,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
 from thermodata.reader.text.cells.zone_words import WORDS, offset_ns
 from thermodata.reader.text.preamble.head_words import Says, said_by
+from thermodata.reader.text.preamble.pass_words import without_pass
 from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, tells_the_hour, with_month
 from thermodata.reader.text.preamble.zone_places import without_places
 from thermodata.reader.text.times import timestamp
@@ -135,7 +136,7 @@ def _ns(moment: Moment) -> int:
 def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unread]:
     """The moments of one line: a label and its time in one cell, or in cells behind each other."""
     left = [" ".join((clean(c).strip(_MARKS) if k == 0 else clean(c)).split()) for k, c in enumerate(cells)]
-    left = [c.translate(_FULL_WIDTH) for c in left if 0 < len(c) <= _LONGEST_CELL]
+    left = [without_pass(c.translate(_FULL_WIDTH)) for c in left if 0 < len(c) <= _LONGEST_CELL]
     k = 0
     while k < len(left):
         label, zone, value = _split(left[k])

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
+from thermodata.reader.text.preamble.pass_words import pass_said
+from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour, said_by_head
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import first_ns, recorded, start_ns
@@ -164,7 +165,20 @@ def _later(
         if len(fits) == 1:
             by = next(n for n, spans in others.items() if any(tells(passes[fits[0]], x) for x in spans))
             return fits[0], f"'{by}' says"
-    return None, ""
+    words = {_by_words(r, hour, source.spec.timezone or "") for r in raws}
+    return (words.pop() if len(words) == 1 else None) or (None, "")
+
+
+def _by_words(raw: RawStream, hour: RepeatedHour, zone: str) -> tuple[bool, str] | None:
+    """(whether a file says by its name or above its rows that it is of the second pass, how it says so); None where it
+    says neither, or both."""
+    by_name = pass_said([raw.source_path], hour, zone)
+    by_head = next((said for note in raw.notes if (said := said_by_head(note)) is not None), None)
+    found = [(said, where) for said, where in ((by_name, "name"), (by_head, "head")) if said is not None]
+    if len({second for (second, _), _ in found}) != 1:
+        return None
+    (second, word), where = found[0]
+    return second, f"'{word}' in its {where} says"
 
 
 def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
