@@ -73,7 +73,7 @@ def test_a_name_of_two_plugins_asks_which(say: Say, monkeypatch: pytest.MonkeyPa
     assert say("plugins", "show", "effect-foo").code == 0
 
 
-def test_an_effect_of_every_model_is_said_to_need_no_plugin(say: Callable[..., Said]) -> None:
+def test_an_effect_of_every_model_is_said_to_need_no_plugin(say: Say) -> None:
     said = say("plugins", "show", "prediction")
     assert said.code == 2
     assert "{effect: prediction, file: FILE.csv}" in said.err

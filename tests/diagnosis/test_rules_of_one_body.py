@@ -12,10 +12,11 @@ import pytest
 
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.locked import unlocking
 from thermodata.diagnosis.locked.confirm import Fits
 from thermodata.diagnosis.locked.one_body import one_body
 from thermodata.diagnosis.question.present import GENERIC
-from thermodata.diagnosis.verdict.judge import Judged, OneBody
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, OneBody
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
@@ -144,6 +145,67 @@ def test_the_place_of_all_claims_is_taken_before_that_of_some() -> None:
     one = found(Lab(without_all), claims=(DRIVE, COOLANT, CUT))
     assert one is not None
     assert [j.scored.candidate.effect.name for j in one.heats] == ["turret_friction", "coolant"]
+
+
+def judged(scored: Scored) -> Judged:
+    return Judged(scored, scored, None, ())
+
+
+def asked_again(monkeypatch: pytest.MonkeyPatch, first: Judgement, second: Judgement) -> tuple[Judgement, set[str]]:
+    """What is concluded where the turret takes the place of drive and coolant, and the channels that the second answer
+    was asked without."""
+    without: list[frozenset[str]] = []
+    answers = iter((first, second))
+
+    def ask(locked: Any, faults: Any, refused: frozenset[str] = frozenset()) -> Any:
+        without.append(refused)
+        return SimpleNamespace(looked_for=())
+
+    monkeypatch.setattr(unlocking, "_opened", lambda *given: next(answers))
+    heats = tuple(replace(j, warms=TURRET.candidate.id) for j in first.claims[:2])
+    monkeypatch.setattr(unlocking, "_one_body", lambda *given: OneBody(TURRET.candidate.id, heats, 0.5, 1.0))
+    monkeypatch.setattr(unlocking, "_turned", lambda *given: {})
+    concluded = unlocking.unlocked(ask, lambda locked: cast("Fits", None), [LOCKED]).judgement
+    return concluded, set(without[-1])
+
+
+FIRST = Judgement("effect", (judged(DRIVE), judged(COOLANT)), (), (judged(DRIVE), judged(COOLANT)), "")
+
+
+def test_the_second_answer_stands_where_the_body_is_selected(monkeypatch: pytest.MonkeyPatch) -> None:
+    body = judged(TURRET)
+    concluded, without = asked_again(monkeypatch, FIRST, Judgement("effect", (body,), (), (body,), ""))
+    assert without == {"n_tool", "M_cool"}
+    assert ([j.scored.candidate.id for j in concluded.claims], len(concluded.heats)) == (["turret_heat:T_turret"], 2)
+
+
+def test_a_body_that_is_not_selected_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    concluded, _ = asked_again(monkeypatch, FIRST, Judgement("unknown", (), (), (judged(CUT),), ""))
+    assert concluded is FIRST
+
+
+def test_a_body_that_the_locked_tests_refuse_takes_no_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    body = judged(TURRET)
+    concluded, _ = asked_again(monkeypatch, FIRST, Judgement("unknown", (), (), (body,), "", refused=(body,)))
+    assert concluded is FIRST
+
+
+def test_what_was_refused_before_is_refused_still(monkeypatch: pytest.MonkeyPatch) -> None:
+    body, gone = judged(TURRET), judged(CUT)
+    concluded, without = asked_again(
+        monkeypatch, replace(FIRST, refused=(gone,)), Judgement("effect", (body,), (), (body,), "")
+    )
+    assert without == {"n_tool", "M_cool", "P_S"}
+    assert concluded.refused == (gone,)
+
+
+def test_what_another_claim_reads_is_asked_still(monkeypatch: pytest.MonkeyPatch) -> None:
+    other = judged(scored("coolant_heat", family="coolant", channels=("T_cool", "M_cool")))
+    body = judged(TURRET)
+    _, without = asked_again(
+        monkeypatch, replace(FIRST, claims=(*FIRST.claims, other)), Judgement("effect", (body,), (), (body,), "")
+    )
+    assert without == {"n_tool"}
 
 
 def test_a_turret_is_named_and_not_what_warms_it() -> None:

@@ -75,9 +75,9 @@ def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: 
         if anew.claims and all(j.scored.looked is not None and j.scored.looked.at_second_look for j in anew.claims):
             found, judgement = second, replace(anew, refused=(*judgement.refused, *anew.refused))
     elif (one := _one_body(judgement, found, fits)) is not None:
-        second, _, anew = opened(frozenset(c for j in one.heats for c in j.scored.candidate.channels))
-        if any(j.scored.candidate.id == one.body for j in anew.chosen):
-            found, judgement = second, replace(anew, one_body=one)
+        second, _, anew = opened(_of_heats(one, judgement))
+        if _stands(one.body, anew):
+            found, judgement = second, replace(anew, one_body=one, refused=(*judgement.refused, *anew.refused))
     return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looks))
 
 
@@ -103,6 +103,20 @@ def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked
 
 def _one_body(judgement: Judgement, found: Investigation, fits: Fits) -> OneBody | None:
     return None if found.selection is None else one_body(judgement.claims, found.selection.first.ranked, fits)
+
+
+def _of_heats(one: OneBody, judgement: Judgement) -> frozenset[str]:
+    """The channels that the heats of a body read, and what the locked tests have refused already; but for those that
+    another claim reads."""
+    kept = [j for j in judgement.claims if not any(j.scored is heat.scored for heat in one.heats)]
+    gone = {c for j in (*one.heats, *judgement.refused) for c in j.scored.candidate.channels}
+    return frozenset(gone.difference(*(j.scored.candidate.channels for j in kept)))
+
+
+def _stands(body: str, judgement: Judgement) -> bool:
+    """Whether it was selected, and not refused by the locked tests."""
+    chosen, refused = ({j.scored.candidate.id for j in some} for some in (judgement.chosen, judgement.refused))
+    return body in chosen - refused
 
 
 def spoilt(fits: Fits, some: Sequence[Judged], place: int, floor: float) -> Foretold | None:
