@@ -6,8 +6,6 @@ from collections.abc import Iterator
 
 import pytest
 
-from thermodata.cli import main
-
 from .chromium import Chromium, find
 from .commands import Said, Say
 
@@ -15,6 +13,7 @@ from .commands import Said, Say
 @pytest.fixture
 def say(capsys: pytest.CaptureFixture[str]) -> Say:
     """Runs a command in this process."""
+    from thermodata.cli import main  # the lower floors are tested without the commands
 
     def run(*words: object) -> Said:
         capsys.readouterr()

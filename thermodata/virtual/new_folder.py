@@ -7,7 +7,7 @@ from pathlib import Path
 from thermodata.errors import UsageError
 
 
-def new_folder(folder: Path | str) -> Path:
+def without_a_campaign(folder: Path | str) -> Path:
     """The folder, which need not exist. UsageError for one that holds a campaign."""
     path = Path(folder)
     if (path / "campaign.yaml").exists():

@@ -14,7 +14,7 @@ from thermodata.errors import UsageError
 from thermodata.store.base.counting import counted
 from thermodata.virtual.describe import campaign_file, model_file, truth_file
 from thermodata.virtual.logbook import Logbook
-from thermodata.virtual.new_folder import new_folder
+from thermodata.virtual.new_folder import without_a_campaign
 from thermodata.virtual.plan import AXES
 from thermodata.virtual.world import Run, World, make_world
 from thermodata.virtual.write_mcap import write_mcap
@@ -60,7 +60,7 @@ def simulate(
     measured=False: the hidden effect's drivers aren't logged either. Raises UsageError for an unknown effect and
     for a folder that holds a campaign.
     """
-    folder = new_folder(folder)
+    folder = without_a_campaign(folder)
     if not 0.1 <= rate_hz <= 10.0:
         raise UsageError("a rate that the simulation can't log", expected="0.1 to 10 Hz", got=f"{rate_hz} Hz")
     say = progress or (lambda _: None)

@@ -70,6 +70,17 @@ class _LeftOut:
     flags: list[str] = field(default_factory=list)
     beside: list[str] = field(default_factory=list)
 
+    def takes(self, one: OneSignal, names: Set[str]) -> bool:
+        """Keeps a column of an export that says of which test it is, or holds the flags of another; false for others."""
+        last = parts_of(split_unit(one.signal.name)[0])[-1]
+        if last in OF_TEST:
+            self.of_test.add(last)
+        elif flags_of(one.signal.name) in names:
+            self.flags.append(one.written)
+        else:
+            return False
+        return True
+
     def told(self, exported: bool) -> list[str]:
         """All notes on them."""
         notes = [*self.notes]
@@ -111,7 +122,7 @@ def channels_of(
         if name in seen and name not in making.twice:
             continue  # the same signal, in a stream of another name
         seen.add(name)
-        if making.exported and _is_of_the_store(one, making.names, left):
+        if making.exported and left.takes(one, making.names):
             continue
         said, note = said_of(one)
         said = as_exported(said, one.signal)
@@ -144,18 +155,6 @@ def _making(
         taken=taken,
         calibrations=calibrations,
     )
-
-
-def _is_of_the_store(one: OneSignal, names: Set[str], left: _LeftOut) -> bool:
-    """Whether a column of an export says of which test it is, or holds the flags of another; `left` keeps it."""
-    last = parts_of(split_unit(one.signal.name)[0])[-1]
-    if last in OF_TEST:
-        left.of_test.add(last)
-        return True
-    if flags_of(one.signal.name) in names:
-        left.flags.append(one.written)
-        return True
-    return False
 
 
 def _channel(making: _Making, one: OneSignal, said: Guess, note: str | None) -> DraftChannel:

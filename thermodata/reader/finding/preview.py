@@ -95,7 +95,8 @@ def preview(
 
 
 def begin(reader: Reader, path: Path, source: Source) -> Begun:
-    """The first rows alone where the reader can do that and the file is large. FormatError for what is no file."""
+    """Who reads a file for a look at it, and what that says of it: of the first rows alone where the reader can do that
+    and the file is large. FormatError for what is no file; what `described` raises."""
     refuse_what_never_ends(path)
     beginning = getattr(reader, "beginning", None)
     with asking(f"reader '{reader.name}' failed to begin a file", str(path)), held_for(reader, path) as real:

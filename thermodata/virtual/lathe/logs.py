@@ -19,7 +19,7 @@ from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import AXES, World, make_world
-from thermodata.virtual.new_folder import new_folder
+from thermodata.virtual.new_folder import without_a_campaign
 
 LOGGERS = ("plc", "logger", "hall", "probes")
 
@@ -40,7 +40,7 @@ def simulate_lathe(
     """
     import yaml
 
-    folder = new_folder(folder)
+    folder = without_a_campaign(folder)
     world = make_world(stratum, seed, hours=hours, tests=tests, hide=hide)
     (folder / "raw").mkdir(parents=True, exist_ok=True)
     (folder / "truth").mkdir(exist_ok=True)
