@@ -71,7 +71,7 @@ class _LeftOut:
     beside: list[str] = field(default_factory=list)
 
     def takes(self, one: OneSignal, names: Set[str]) -> bool:
-        """Keeps a column of an export that says of which test it is, or holds the flags of another; false for others."""
+        """Keeps what an export says of the test, and flags of other columns; whether it is either."""
         last = parts_of(split_unit(one.signal.name)[0])[-1]
         if last in OF_TEST:
             self.of_test.add(last)
