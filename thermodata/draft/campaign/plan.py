@@ -17,9 +17,9 @@ from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, Draf
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
 from thermodata.draft.courses.warm import warm_starts
-from thermodata.draft.files.by_listed_times import parted_by_lists
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.by_listed_times import parted_by_lists
 from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, tests_of
