@@ -362,6 +362,15 @@ def test_show_draws_a_picture(ask: Say, refused: Callable[..., str], tmp_path: P
     assert out.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert out.stat().st_size > 20_000
     assert "FILE.png" in refused("show", "baseline", "--png", tmp_path / "show.svg")
+    svg, pdf = tmp_path / "show.svg", tmp_path / "show.pdf"
+    answer = json.loads(ask("show", "baseline", "--svg", svg, "--pdf", pdf, "--json").out)
+    assert (answer["picture"], answer["pictures"]) == (str(svg), [str(svg), str(pdf)])
+    drawn = svg.read_text("utf-8")
+    assert "Bode: phase [deg]" in drawn
+    assert "band: 95 % of white noise" in drawn
+    assert pdf.read_bytes()[:5] == b"%PDF-"
+    ask("show", "baseline", "--svg", svg)
+    assert svg.read_text("utf-8") == drawn, "the same model gives the same file"
     assert "no effect 'spindle'" in refused("show", "baseline", "--effect", "spindle")
 
 

@@ -16,7 +16,7 @@ from thermodata.modelling.compare.one_version import refuse_stale
 from thermodata.modelling.compare.portability import Portability, portability
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
-from thermodata.modelling.inputs import coarse_readings, shifted
+from thermodata.modelling.inputs import coarse_readings, moved, shifted
 from thermodata.modelling.inputs.roles import find_tests, in_full, opened, resolve_roles
 from thermodata.modelling.model_file import nested, prediction
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
@@ -114,6 +114,7 @@ def fit_once(
         *said.pop("notes", []),
         *coarse_readings.said(data, names),
         *shifted.said(data, names),
+        *moved.said(data, names),
         *said_of_fit(fitted, data),
         *of_files,
         *_unlocked(looked_at),
@@ -151,10 +152,9 @@ def _led_past(store: Store, result: FitResult) -> list[str]:
 def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
     if not tests:
         return []
-    names = ", ".join(in_full(tests))
     return [
-        f"locked in the campaign, and open in this model: {names}; counted as a look, for what it says of the model is "
-        "no longer new to it (calibrate_on, verify_on)"
+        f"locked in the campaign, and open in this model: {', '.join(in_full(tests))}; counted as a look, for what it "
+        "says of the model is no longer new to it (calibrate_on, verify_on)"
     ]
 
 

@@ -82,6 +82,7 @@ def model_command(
     from thermodata.export.control import write
     from thermodata.export.control.of_model import Asked, program_of
     from thermodata.export.control.write import files_of
+    from thermodata.modelling.inputs import moved
     from thermodata.modelling.run import load
     from thermodata.store.catalogue.stale import stale_line
 
@@ -98,6 +99,8 @@ def model_command(
     folder = out or Path()
     _refuse_to_replace([folder / n for n in files_of(program, target)], force)
     written = write(program, target, folder, real)
+    for note in moved.said(loaded.data, _read_by(loaded)):
+        session.say(note)
     payload = {
         "model": loaded.identity,
         "response": program.response,
@@ -115,6 +118,12 @@ def model_command(
         "stale": stale,
     }
     session.answer(payload, lambda: _program_text(loaded, program, written))
+
+
+def _read_by(loaded: Loaded) -> set[str]:
+    """The channels that the model reads."""
+    terms = [term.bound for response in loaded.fitted.responses for term in response.terms]
+    return {name for term in terms for test in loaded.data.tests if term.covers(test) for name in term.reads(test)}
 
 
 def _program_text(loaded: Loaded, program: Program, written: Written) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -22,16 +23,23 @@ if TYPE_CHECKING:
     from thermodata.modelling.seen.as_system import Seen, SeenPath
     from thermodata.store.catalogue.models import StoredModel
 
+F = TypeVar("F", bound=Callable[..., object])
 DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
+
+
+def _picture(kind: str, told: str) -> Callable[[F], F]:
+    return click.option(f"--{kind}", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help=told)
 
 
 @command("show")
 @click.argument("model", shell_complete=completing.models)
 @click.option("--effect", "effects", multiple=True, metavar="EFFECT", help="Only this one; may be repeated.")
-@click.option(
-    "--png", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Draw it all into a picture."
-)
-def show_command(session: Session, model: str, effects: tuple[str, ...], png: Path | None) -> None:
+@_picture("png", "Draw it all into a picture.")
+@_picture("svg", "The same as lines, for a paper.")
+@_picture("pdf", "Likewise.")
+def show_command(
+    session: Session, model: str, effects: tuple[str, ...], png: Path | None, svg: Path | None, pdf: Path | None
+) -> None:
     """Show MODEL as a system: coefficients, poles, step response, Bode.
 
     At the model's step, for inputs that run straight between samples: coefficients a over b, poles and zeros of z, time
@@ -44,8 +52,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
     from thermodata.store.catalogue.models import find_model
     from thermodata.store.catalogue.stale import stale_line
 
-    if png is not None and png.suffix.lower() != ".png":
-        raise UsageError("a picture is a PNG", expected="FILE.png", got=str(png))
+    pictures = _pictures(png=png, svg=svg, pdf=pdf)
     store = session.store()
     stored = find_model(store, resolve(store, model))
     if lacking := not_installed(stored.spec):
@@ -53,14 +60,15 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
         return
     loaded = load(store, stored.model)
     seen = [_only(s, effects) for s in see(loaded.fitted, loaded.data)]
-    if png is not None:
+    for picture in pictures:
         from thermodata.report.charts.system_png import draw
 
-        draw(seen, png, f"{loaded.fitted.spec.name} {loaded.identity}")
+        draw(seen, picture, f"{loaded.fitted.spec.name} {loaded.identity}")
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
-        "picture": None if png is None else str(png),
+        "picture": str(pictures[0]) if pictures else None,
+        "pictures": [str(p) for p in pictures],
         "responses": [_payload(s) for s in seen],
         "stored": None,
         "stale": stale_line(store, loaded.identity),
@@ -68,9 +76,17 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
 
     def text() -> str:
         parts = [f"{loaded.fitted.spec.name}  {loaded.identity}", *(_text(s) for s in seen)]
-        return "\n\n".join(parts + ([str(png)] if png is not None else []))
+        return "\n\n".join(parts + [str(p) for p in pictures])
 
     session.answer(payload, text)
+
+
+def _pictures(**asked: Path | None) -> list[Path]:
+    """The files to draw into. UsageError for one whose name says another kind."""
+    for kind, path in asked.items():
+        if path is not None and path.suffix.lower() != f".{kind}":
+            raise UsageError(f"--{kind} writes a {kind.upper()}", expected=f"FILE.{kind}", got=str(path))
+    return [path for path in asked.values() if path is not None]
 
 
 def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) -> None:
@@ -85,6 +101,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
         "model": stored.model,
         "name": stored.name,
         "picture": None,
+        "pictures": [],
         "responses": [],
         "stored": plain(stored.result),
         "stale": stale_line(session.store(), stored.model),

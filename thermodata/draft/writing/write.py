@@ -186,8 +186,16 @@ def _tests(draft: Draft) -> list[str]:
     if draft.table is not None:
         lines[0] += f"; conditions from {one_line(draft.table.file)}, column '{one_line(draft.table.key)}'"
     if len(draft.tests) == 1 and draft.tests[0].window is None:
-        lines[0] += f"; {_ALONE}"
+        lines[0] += f"; {_ALONE}{_named_files(draft)}"
     return lines + [_test(t) for t in draft.tests]
+
+
+def _named_files(draft: Draft) -> str:
+    """', files: {daq: raw/day_daq.csv}': of sources that find files by the test's name, for others would find none."""
+    (test,) = draft.tests
+    by_name = {s.name: s.files.replace("{test}", test.id) for s in draft.sources if s.files and "{test}" in s.files}
+    files = {**by_name, **test.files}
+    return f", files: {{{one_line(flow(files))}}}" if files else ""
 
 
 def _test(t: DraftTest) -> str:

@@ -1,4 +1,5 @@
-"""A model as a system, drawn into a PNG: step responses, Bode, autocorrelation, residual against each state."""
+"""A model as a system, drawn into a PNG, SVG or PDF by the name of the file: step responses, Bode, autocorrelation,
+residual against each state."""
 
 from __future__ import annotations
 
@@ -20,6 +21,9 @@ DPI = 110
 LEGEND_BESIDE = 1.6  # of the curves' length: where the axis ends
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 PERIODS_MIN = {"1 min": 1.0, "10 min": 10.0, "1 h": 60.0, "6 h": 360.0, "1 d": 1440.0, "1 week": 10080.0}
+SHORTEST_STEPS = 8.0  # a period that is drawn: below, what samples make of it (0 or 180 deg at two) is not the model
+# nothing of when and by what it was drawn: the same model gives the same file
+ANONYMOUS = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
 def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
@@ -31,7 +35,7 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
         from matplotlib import pyplot
     except ImportError:
         raise UsageError(
-            "a PNG needs matplotlib, which is not installed",
+            "a picture needs matplotlib, which is not installed",
             hint="pip install 'thermodata[picture]'; thermodata report MODEL draws the same into a page without it",
         ) from None
     state_rows = [math.ceil(len(s.states) / 3) for s in seen]
@@ -50,8 +54,9 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
             _against(axes, state, one.unit)
         at += 2 + more
     try:
-        with whole_file(out) as part:
-            figure.savefig(part, format="png")
+        kind = out.suffix.lower().removeprefix(".")
+        with whole_file(out) as part, matplotlib.rc_context({"svg.hashsalt": "thermodata", "svg.fonttype": "none"}):
+            figure.savefig(part, format=kind, metadata=ANONYMOUS[kind])
     finally:
         pyplot.close(figure)
 
@@ -82,8 +87,9 @@ def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
 def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) -> None:
     for p in seen.paths:
         hertz, size, angle = p.bode
-        minutes = 1.0 / hertz / 60.0
-        (axes.semilogx if phase else axes.loglog)(minutes, angle if phase else size, **looks[p.name])
+        told = hertz * seen.step_s <= 1.0 / SHORTEST_STEPS
+        minutes = 1.0 / hertz[told] / 60.0
+        (axes.semilogx if phase else axes.loglog)(minutes, (angle if phase else size)[told], **looks[p.name])
     low, high = axes.get_xlim()
     axes.invert_xaxis()
     shown = {name: at for name, at in PERIODS_MIN.items() if low <= at <= high}
@@ -101,7 +107,7 @@ def _correlation(axes: Any, seen: Seen) -> None:
     axes.axhline(0.0, color="0.3", linewidth=0.6)
     told = "\n".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)
     axes.set(
-        title="Autocorrelation of the residual",
+        title="Autocorrelation of the residual (band: 95 % of white noise)",
         xlabel="lag [h]",
         ylim=(-1.05, 1.05),
     )
@@ -116,5 +122,5 @@ def _against(axes: Any, state: Any, unit: str) -> None:
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     over = "" if state.unit in ("1", "") else f" [{state.unit}]"
     axes.set(xlabel=f"{state.state}{over}", ylabel=f"residual [{unit}]")
-    axes.set_title(f"r = {state.correlation:+.2f}", fontsize="medium")
+    axes.set_title(f"Residual, mean ± standard deviation, r = {state.correlation:+.2f}", fontsize="medium")
     axes.xaxis.label.set_size("small")
