@@ -216,9 +216,9 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         values is not None
         and not values.constant
         and values.slow
-        and values.low >= 5
-        and values.high <= 80
-        and values.high - values.low <= 60
+        and values.usual[0] >= 5
+        and values.usual[1] <= 80
+        and values.usual[1] - values.usual[0] <= 60
     ):
         if places_in(own) & _AIR:
             return Guess("temperature", basis=("name", "values"))
