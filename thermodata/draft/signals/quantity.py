@@ -225,7 +225,9 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         return Guess(
             "temperature",
             basis=("values",),
-            questions=(f"quantity: {values.span()}, changing slowly: a temperature in degC?",),
+            questions=(
+                f"quantity: {values.usual[0]:.4g} to {values.usual[1]:.4g}, changing slowly: a temperature in degC?",
+            ),
         )
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
         return Guess("state", basis=("name",))
