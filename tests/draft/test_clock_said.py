@@ -20,6 +20,7 @@ from ..commands import Said
         ("NC clock 1 h ahead", "-1 h"),
         ("Die Uhr der Steuerung geht 4 Minuten nach", "4 min"),
         ("Die Uhr der Steuerung geht 4 min vor", "-4 min"),
+        ("Steuerung: Ortszeit, Uhr geht 3 min nach (Steuerung zeigt 3 min zu wenig).", "3 min"),
         ("hodiny CNC o 12 min pozadu", "12 min"),
         ("Nach 4 min die Uhr gestellt", None),
         ("clock set 5 min before", None),

@@ -194,3 +194,14 @@ def test_what_a_legend_says_counts_more_than_the_name(
     assert places[f"{called} [degC]"] == at
     line = next(line for line in text.splitlines() if f'signal: "{called} [degC]"' in line)
     assert "# guess: name and unit" in line
+
+
+def test_words_with_a_name_in_brackets_in_any_text_are_those_of_the_channel(tmp_path: Path, say: Say) -> None:
+    """With the place that stands behind them."""
+    _logs(tmp_path)
+    said = ["Series 3, portal machine (linear motors)", "Tests:", "  t2: day, calibration", "Sensors:"]
+    said += ["  Querbalken hinten  (T01): crossbeam.rear", "  Bett oben  (T02): bed.top", "  Halle (T03): hall"]
+    (tmp_path / "README.txt").write_text("\n".join(said), encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places == {"T01": "crossbeam.rear", "T02": "bed.top", "T03": "hall"}
+    assert "called 'Querbalken hinten' in README.txt" in text

@@ -145,3 +145,34 @@ def test_a_test_that_rises_is_named_beside_what_holds_and_a_response_is_no_cause
     assert "\nch4 is itself a displacement\n" in text
     calm = known.model_copy(update={"tests": [of("sim", 20.0, 9.0)], "note": None})
     assert "yet" not in confirmed_text(calm)
+
+
+def small(does: float, after: float, most: float | None) -> str:
+    """Of an effect that does too little in the locked tests for a verdict."""
+    test = results.TestConfirmed(
+        campaign="c", test="last", rmse_um_before=1.98, rmse_um_after=after, acts=False, does_um=does
+    )
+    errors = {"locked_rmse_um_before": 1.98, "locked_rmse_um_after": after}
+    said = {"model": "m", "response": "dX", "candidate": "lag:t4", "holds": None, "parameters": {}, "looks": 1}
+    return confirmed_text(results.Confirmed.model_validate({**said, **errors, "tests": [test], "most_um": most}))
+
+
+def test_what_is_small_beside_its_largest_where_the_error_falls_is_not_called_little() -> None:
+    said = small(1.8, 0.818, 12.0)
+    assert said.startswith("lag:t4 does 1.80 um about the mean of the locked test in which it does most, under a fifth")
+    assert "(12.0 um)" in said
+    assert "Their error falls all the same, 1.98 -> 0.818 um" in said
+    assert "hardly acts" not in said
+
+
+@pytest.mark.parametrize(("does", "after", "most"), [(0.2, 1.45, 12.0), (1.8, 2.4, 12.0), (1.8, 0.818, None)])
+def test_what_is_small_where_the_error_hardly_falls_hardly_acts(does: float, after: float, most: float | None) -> None:
+    assert small(does, after, most).startswith("lag:t4 hardly acts in the locked tests")
+
+
+@pytest.mark.parametrize(("name", "said"), [("lag.tau", True), ("lag.gain", False)])
+def test_that_add_may_give_a_second_lag_is_said_of_what_does_not_hold(name: str, said: bool) -> None:
+    value = {"value": 40.0, "unit": "min", "low": None, "high": None}
+    fell = {"locked_rmse_um_before": 2.26, "locked_rmse_um_after": 2.43, "parameters": {name: value}}
+    of = {"model": "m", "response": "dX", "candidate": "lag:t4", "holds": False, "tests": [], "looks": 1}
+    assert ("asked with one lag" in confirmed_text(results.Confirmed.model_validate({**of, **fell}))) is said

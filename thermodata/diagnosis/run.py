@@ -168,6 +168,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         locked_shape_um_after=None if shape is None else shape.after,
         parameters=confirmation.parameters[name],
         tests=_each_test(confirmation),
+        most_um=confirmation.most,
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
         probability=claimed(store, model.identity, of.name).get(name),
         put_right=told(put_right),
@@ -215,6 +216,7 @@ def _each_test(confirmation: Confirmation) -> list[TestConfirmed]:
             rmse_um_after=after,
             acts=key in confirmation.acts,
             n=samples[key],
+            does_um=confirmation.does.get(key),
         )
         for key, before, after in confirmation.each
     ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
@@ -12,10 +14,12 @@ from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import is_lag_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
+from thermodata.schema.words.sentences import listed
 from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.store import Store
+    from thermodata.store.catalogue.models import StoredModel
 
 
 @again_where_data_changed
@@ -46,16 +50,35 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     before = make_result(old.fitted, old.data, parent.model).scores
     spec = as_chosen(parent, old.data).model_copy(update={"effects": effects})
     notes = [f"removed: {', '.join(gone)}"]
-    earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]
+    chain = model_chain(store, parent.model)
+    earlier = [m for m in chain[:-1] if _alike(m.spec, spec)]
     if earlier:
         spec = earlier[-1].spec
         notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
-    elif spec.in_sample:
+    else:
+        notes += stays(chain, of, [e.id for e in kept])
+    if not earlier and spec.in_sample:
         notes.append("verification tests stay fitted (in-sample), for they helped to choose what is left")
         notes += came_since(spec, old.data)
     # a version of its own, whatever was fitted before: it comes of this parent, and the name leads to it
     own = spec.model_copy(update={"taken_back": parent.model})
     return fit_once(store, own, read=old.data, parent=parent.model, before=before, notes=notes)
+
+
+def stays(chain: Sequence[StoredModel], of: str, kept: Sequence[str | None]) -> list[str]:
+    """A sentence on what came with an effect and stays without it, as a second lag of another one does: what is left is
+    not the version before. chain: the versions, oldest first. of: id of what goes. kept: ids of what is left."""
+    for before, after in pairwise(chain):
+        had, has = set(term_ids(before.spec.effects)), term_ids(after.spec.effects)
+        if of in has and of not in had:
+            stay = [i for i in has if i not in had and i in kept]
+            does, which = ("stay", "them") if len(stay) > 1 else ("stays", "it")
+            said = (
+                f"{listed(stay)} came with {of} and {does}, so these are other effects than before: {before.model} is "
+                f"the version before both; remove {which} too to take back all that came"
+            )
+            return [said] if stay else []
+    return []
 
 
 def _alike(one: Model, other: Model) -> bool:

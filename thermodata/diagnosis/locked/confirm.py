@@ -42,7 +42,8 @@ class Confirmation:
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
     (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
     decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
-    beside the model as it stands (`ACTS`). implausible: what is said of gains that are larger than anything known, by
+    beside the model as it stands (`ACTS`). does: how much they do in each, about its mean. most: in the open test in
+    which they do most. implausible: what is said of gains that are larger than anything known, by
     candidate. fitted: with the candidates, to all open tests.
     """
 
@@ -56,6 +57,8 @@ class Confirmation:
     shapes: tuple[Shape, ...] = ()
     asked: frozenset[tuple[str, str]] | None = None
     acts: frozenset[tuple[str, str]] = frozenset()
+    does: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    most: float | None = None
     implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     fitted: FittedResponse | None = None
 
@@ -112,6 +115,7 @@ def confirm(
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     found, terms = more.parameters(), _terms(more, base, candidates)
+    does, most = _sizes(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable)
     return Confirmation(
         rmse(ours, usable),
         rmse(theirs, usable),
@@ -123,7 +127,9 @@ def confirm(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
         tuple(_shape(ours, theirs, t) for t in usable),
-        acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
+        acts=frozenset(key for key, size in does.items() if most > 0 and size >= ACTS * most),
+        does=does,
+        most=most,
         implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
         fitted=theirs,
     )
@@ -190,16 +196,16 @@ def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None)
     return Foretold(before, after, changed, tests=tests)
 
 
-def _acting(
+def _sizes(
     ours: FittedResponse,
     theirs: FittedResponse,
     changed: Collection[str],
     tests: Sequence[TestData],
     locked: Sequence[TestData],
-) -> frozenset[tuple[str, str]]:
-    """The keys of the locked tests in which what is added does enough of what it does in the open test in which it does
-    most. Other effects move as well when one is added: they say nothing of it. changed: ids of effects that become
-    others, which act where they do anything at all."""
+) -> tuple[dict[tuple[str, str], float], float]:
+    """How much what is added does in each locked test about its mean, by the test's key, and in the open test in which
+    it does most, in the response's unit. Other effects move as well when one is added: they say nothing of it.
+    changed: ids of effects that become others, which act where they do anything at all."""
     had = {t.id for t in ours.terms} - set(changed)
     new = [t for t in theirs.terms if t.id not in had]
 
@@ -209,8 +215,7 @@ def _acting(
         values = np.sum([t.contribution(test) for t in new], axis=0)[theirs.mask(test)]
         return float(values.std()) if len(values) else 0.0
 
-    most = max(map(size, tests), default=0.0)
-    return frozenset(t.key for t in locked if most > 0 and size(t) >= ACTS * most)
+    return {t.key: size(t) for t in locked}, max(map(size, tests), default=0.0)
 
 
 def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:

@@ -35,7 +35,7 @@ def offset_of(sentence: str) -> str | None:
     """'37 min' of a clock that is 37 min slow, '-37 min' of one that is fast; None where it is not said, or both."""
     amounts = re.findall(_AMOUNT, sentence, re.IGNORECASE)
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
-    if len(amounts) != 1 or not re.search(_CLOCK, sentence, re.IGNORECASE) or bool(slow) == bool(fast):
+    if len(set(amounts)) != 1 or not re.search(_CLOCK, sentence, re.IGNORECASE) or bool(slow) == bool(fast):
         return None
     by, unit = amounts[0]
     unit = "h" if unit.lower().startswith("st") else _UNITS[unit[0].lower()]

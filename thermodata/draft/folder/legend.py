@@ -19,6 +19,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
 from thermodata.schema.agreed.exported import is_own_about, said_key
 from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.words.places import is_known
 from thermodata.schema.words.sentences import with_count
 
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
@@ -28,6 +29,7 @@ _SHOWN = 4
 _OWN = ("quantity", "axis", "at", "sign")
 _ONCE = 3  # of so many names one may be named again: a list of what happened names most
 _LISTED = re.compile(r"\W*(?P<name>[\w.]+)\s*(?:->|=>|→|=|:)\s*(?P<text>\S.*)")  # a line of 'CH1 -> bearing [degC], X'
+_BRACKETED = re.compile(r"\W*(?P<text>[^():=]*\w)\s*\((?P<name>[\w.]+)\)\s*[:=]\s*(?P<more>\S.*)")
 _AXES = frozenset("XYZUVWABC")
 _EITHER = frozenset("ABC")
 _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)?(?P<axis>[XYZ])$", re.IGNORECASE)
@@ -35,7 +37,7 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 
 @dataclass(frozen=True, slots=True)
 class Said:
-    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. own:
+    """Of a signal. name: as it stands there; text: what it is; unit, axis, at: None where nothing is said. own:
     key of the table `channel` -> what a workbook of our own says. others: what more lines say of it that is something
     else."""
 
@@ -45,6 +47,7 @@ class Said:
     axis: str | None = None
     others: tuple[str, ...] = ()
     own: Mapping[str, str] = field(default_factory=dict)
+    at: str | None = None
 
     @property
     def described(self) -> str:
@@ -76,7 +79,7 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
         path = there(folder / file)
         if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
-        lists = [] if path.suffix.lower() in WORKBOOKS else [listed(path, _MOST_ROWS)]
+        lists = [] if path.suffix.lower() in WORKBOOKS else [bracketed(path, _MOST_ROWS), listed(path, _MOST_ROWS)]
         for rows in (*grids_of(path, _MOST_ROWS), *lists):
             if (legend := _legend(file, rows, names, tests)) is not None:
                 if file in books and any(s.own for s in legend.says.values()):
@@ -119,10 +122,13 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
                 beside = [c for c in range(max(map(len, named))) if c not in (key, column)]
                 units, axes = _column(named, key, beside, _is_unit), _column(named, key, beside, _AXES.__contains__)
                 found = {word: replace(_parted(of.name, of.text), others=of.others) for word, of in said.items()}
+                places = _column(named, key, beside, _is_place)
                 return Legend(
                     file,
                     {
-                        word: replace(one, unit=one.unit or units.get(word), axis=one.axis or axes.get(word))
+                        word: replace(
+                            one, unit=one.unit or units.get(word), axis=one.axis or axes.get(word), at=places.get(word)
+                        )
                         for word, one in found.items()
                     },
                 )
@@ -179,8 +185,23 @@ def listed(path: Path, most: int) -> list[list[str]]:
     return rows if len(lines) <= most and 2 * len(rows) > len(lines) else []
 
 
+def bracketed(path: Path, most: int) -> list[list[str]]:
+    """The lines of a text, among any others, that have a name in brackets ('top of the bed (T04): bed.top') as rows of
+    a name, the words before it and those behind; none where few are such."""
+    try:
+        text, _, _ = decode(path.read_bytes())
+    except (ThermodataError, OSError):
+        return []
+    named = [m for line in text.splitlines()[:most] if (m := _BRACKETED.fullmatch(line.strip()))]
+    return [[m["name"], m["text"].strip(), m["more"].strip()] for m in named] if len(named) >= _FEWEST else []
+
+
 def _is_unit(cell: str) -> bool:
     return is_unit(cell) and not cell.isdecimal()
+
+
+def _is_place(cell: str) -> bool:
+    return is_known(cell)
 
 
 def _is_words(cell: str) -> bool:
@@ -196,6 +217,7 @@ def described_by(file: RawFile, legend: Legend) -> RawFile:
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}
         of |= {said_key(signal.name, key): text for key, text in said.own.items()}
+        of |= {said_key(signal.name, "at"): said.at} if said.at else {}
         of |= {TOLD_TOO: "', '".join(said.others)} if said.others else {}
         # words of a switch have none, and what the log says of its numbers counts more
         return replace(signal, properties=of, unit=signal.unit or (said.unit if signal.dtype != "str" else None))

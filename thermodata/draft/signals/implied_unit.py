@@ -91,7 +91,8 @@ def _may_be_of_one(values: Values) -> bool:
 
 def _plausible(quantity: str, values: Values) -> bool:
     low, high = _PLAUSIBLE[quantity]
-    return values.low >= low and values.high <= high and not (quantity == "temperature" and values.switch)
+    least, most = values.usual
+    return least >= low and most <= high and not (quantity == "temperature" and values.switch)
 
 
 def _in_range(found: Guess, text: str, values: Values | None) -> Guess:

@@ -216,16 +216,18 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         values is not None
         and not values.constant
         and values.slow
-        and values.low >= 5
-        and values.high <= 80
-        and values.high - values.low <= 60
+        and values.usual[0] >= 5
+        and values.usual[1] <= 80
+        and values.usual[1] - values.usual[0] <= 60
     ):
         if places_in(own) & _AIR:
             return Guess("temperature", basis=("name", "values"))
         return Guess(
             "temperature",
             basis=("values",),
-            questions=(f"quantity: {values.span()}, changing slowly: a temperature in degC?",),
+            questions=(
+                f"quantity: {values.usual[0]:.4g} to {values.usual[1]:.4g}, changing slowly: a temperature in degC?",
+            ),
         )
     if "door" in places_in(own) and (values is None or values.distinct <= 2):
         return Guess("state", basis=("name",))

@@ -20,13 +20,16 @@ _NUMERAL, _MOSTLY = re.compile(r"[-+]?\d*[.,]?\d+([eE][-+]?\d+)?"), 0.9
 _LEAST_COUNTED = 10
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
+_MANY, _TAIL = 200, 0.005  # of so many values a share at each end may be spikes
+
 
 @dataclass(frozen=True, slots=True)
 class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
     second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
-    and 1; numerals: texts that are numbers, measured ones by their fractions."""
+    and 1; numerals: texts that are numbers, measured ones by their fractions. body: the range of 99 % of
+    many; None of few."""
 
     n: int
     low: float
@@ -41,6 +44,7 @@ class Values:
     counts: bool = False
     text: bool = False
     numerals: bool = False
+    body: tuple[float, float] | None = None
 
     @property
     def counts_rows(self) -> bool:
@@ -60,6 +64,11 @@ class Values:
     def slow(self) -> bool:
         """It creeps: from row to row it changes by little of its range, as a temperature does."""
         return self.n >= 20 and self.distinct > _FEW and self.step <= 0.1 * max(self.high - self.low, 1e-12)
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """Its range but for a spike."""
+        return self.body or (self.low, self.high)
 
     def span(self) -> str:
         """'19.8 to 34.5'."""
@@ -95,7 +104,16 @@ def values_of(column: Array) -> Values | None:
         float(x[0]),
         float(x[min(1, x.size - 1)]),
         bool(x.size > 1 and (np.diff(x) == 1).all()),
+        body=_body(x),
     )
+
+
+def _body(x: Float1D) -> tuple[float, float] | None:
+    """x: shape (n,), finite."""
+    if x.size < _MANY:
+        return None
+    low, high = np.quantile(x, [_TAIL, 1 - _TAIL])
+    return float(low), float(high)
 
 
 def _switched(column: Array) -> Float1D | None:
@@ -156,7 +174,9 @@ def in_unit(values: Values | None, written: str | None, unit: str | None) -> Val
     low, high, median = (x * factor + offset for x in (values.low, values.high, values.median))
     first, second = (x * factor + offset for x in (values.first, values.second))
     step = values.step * factor
-    return replace(values, low=low, high=high, median=median, step=step, whole=False, first=first, second=second)
+    body = None if values.body is None else (values.body[0] * factor + offset, values.body[1] * factor + offset)
+    own = replace(values, low=low, high=high, median=median, step=step, whole=False, first=first, second=second)
+    return replace(own, body=body)
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:
@@ -181,4 +201,11 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         one.counts and other.counts,
         one.text and other.text,
         one.numerals and other.numerals,
+        _joined_bodies(one, other),
     )
+
+
+def _joined_bodies(one: Values, other: Values) -> tuple[float, float] | None:
+    if one.body is None and other.body is None:
+        return None
+    return min(one.usual[0], other.usual[0]), max(one.usual[1], other.usual[1])

@@ -21,6 +21,8 @@ _ROTARY = re.compile(
     # 'cn' is the C axis's speed where nothing else is said: 'cn vitesse broche' is of a commande numérique
     r"|(?<!\S)([abc])(?: \d)? n(?!\S)|^([abc])n$"
     r"|(?<!\S)([abc]) ?[轴軸]"
+    r"|(?<!\S)(?:motor|mot) (?:temp|temper|temperature|temperatur) ([abc])(?!\S)"
+    r"|(?<!\S)(?:temp|temper) (?:motor|mot) ([abc])(?!\S)"
 )
 
 

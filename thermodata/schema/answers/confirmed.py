@@ -15,6 +15,7 @@ class TestConfirmed(Result):
     rmse_um_after: with it
     acts: whether the effect does there at least a fifth of what it does in the open test in which it does most
     n: samples that count; null in an answer of an older version
+    does_um: how much the effect does there, about its mean, in the response's unit; null in one of an older version
     """
 
     campaign: str
@@ -23,6 +24,7 @@ class TestConfirmed(Result):
     rmse_um_after: float
     acts: bool = True
     n: int | None = None
+    does_um: float | None = None
 
 
 class Confirmed(Result):
@@ -43,6 +45,7 @@ class Confirmed(Result):
     locked_shape_um_after: with it
     parameters: of the effect, fitted to all open tests
     tests: each locked test
+    most_um: how much it does in the open test in which it does most; null in an answer of an older version
     looks: how often the locked tests have been opened so far, this look included; the most of any test
     probability: that the stored diagnosis claims it with; null where it does not
     put_right: what of the logs was put right before, as a diagnosis does; null where nothing was
@@ -61,6 +64,7 @@ class Confirmed(Result):
     locked_shape_um_after: float | None = None
     parameters: dict[str, Parameter]
     tests: list[TestConfirmed]
+    most_um: float | None = None
     looks: int
     probability: float | None = None
     put_right: PutRight | None = None
