@@ -58,7 +58,7 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
 @click.argument("candidates", nargs=-1, metavar="[CANDIDATE | MODEL...]", shell_complete=completing.candidates)
 @click.option("--response", metavar="CHANNEL", help="Of a model with several: by default that which was diagnosed.")
 def confirm_command(session: Session, model: str, candidates: tuple[str, ...], response: str | None) -> None:
-    """Open the locked tests for an effect of your own choice, or for models as they stand.
+    """Ask the locked tests for an effect of your choice, or for whole models.
 
     CANDIDATE is its rank or id, as diagnose printed them, or any effect:channels. MODEL is fitted to all open tests
     without and with it, and both are scored on the locked ones. Every look is counted; asking the same again is none.

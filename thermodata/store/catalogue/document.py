@@ -9,12 +9,13 @@ from pydantic import BaseModel, ValidationError
 from thermodata.errors import StoreError
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.locked_error import LockedError
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.model import Model
 from thermodata.store.catalogue.ddl import FORMAT
 
-KEPT: tuple[type[BaseModel], ...] = (Campaign, Model, FitResult, Diagnosis, Confirmed)
+KEPT: tuple[type[BaseModel], ...] = (Campaign, Model, FitResult, Diagnosis, Confirmed, LockedError)
 """Which documents: where one changes, the store's format is to be raised."""
 
 _M = TypeVar("_M", bound=BaseModel)

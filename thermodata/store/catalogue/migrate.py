@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 # format -> the SQL that makes the next one of it
 STEPS: dict[int, str] = {
     1: "-- model.result and finding.payload have more keys from here on: what stands there is read as it is",
+    2: "-- the same, and a campaign may leave out a quantity that its unit says; answers hold errors of whole models",
 }
 
 
