@@ -123,8 +123,8 @@ def main(words: Sequence[str]) -> None:
     elif given.op == "snapshot":
         snapshot(store, given.argument)
     elif given.op == "migrate":
-        migrate.FORMAT = 3
-        migrate.STEPS[2] = "alter table test add column shift varchar; update test set shift = 'early'"
+        migrate.STEPS[migrate.FORMAT] = "alter table test add column shift varchar; update test set shift = 'early'"
+        migrate.FORMAT += 1
         with store.write() as con:
             con.execute("update campaign set data_version = data_version")
     steps.on = False

@@ -36,10 +36,10 @@ def test_the_midnight_behind_a_day_is_one_where_it_is_written_as_a_time(tmp_path
 
 
 def test_a_surer_start_that_is_not_read_is_told_and_the_other_not_taken(tmp_path: Path) -> None:
-    head = ["Recorded: 02.03.2026 09:30:00", "Start: 02.03.2026 07:00 Sommerzeit"]
+    head = ["Recorded: 02.03.2026 09:30:00", "Start: 02.03.2026 07:00 Schichtzeit"]
     clock, _, notes, _ = read(tmp_path, head, NUMBERS)
     assert clock == "relative"
-    assert any("Sommerzeit" in n for n in notes)
+    assert any("Schichtzeit" in n for n in notes)
     assert read(tmp_path, head[:1], NUMBERS)[0] == "absolute"
 
 
