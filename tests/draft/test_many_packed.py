@@ -6,6 +6,7 @@ import zipfile
 from collections import Counter
 from contextlib import AbstractContextManager
 from pathlib import Path, PurePosixPath
+from unittest.mock import Mock
 
 import pytest
 
@@ -34,6 +35,60 @@ def test_logs_of_one_name_and_one_length_are_each_read_once(tmp_path: Path, monk
         PurePosixPath(f"all.zip/t{k}/log.csv"): PurePosixPath(f"u{k}/log.csv") for k in range(1, 8, 2)
     }
     assert set(read.values()) == {1}
+
+
+def test_an_archive_is_held_only_against_those_that_share_a_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    paths = [PurePosixPath(f"day{k}.zip/T{k}_{i}.csv") for k in range(20) for i in range(5)]
+    for k in range(20):
+        with zipfile.ZipFile(tmp_path / f"day{k}.zip", "w") as zipped:
+            for path in paths[5 * k : 5 * k + 5]:
+                zipped.writestr(path.name, "time [s],x\n0,1\n")
+    named: Counter[PurePosixPath] = Counter()
+
+    def counted(path: PurePosixPath) -> PurePosixPath:
+        named[path] += 1
+        return as_unpacked(path)
+
+    as_unpacked = module.as_unpacked
+    monkeypatch.setattr(module, "as_unpacked", counted)
+    held = Mock(side_effect=module._Known.all_like, autospec=True)
+    monkeypatch.setattr(module._Known, "all_like", held)
+    assert packed_copies(tmp_path, paths) == {}
+    assert set(named.values()) == {1}
+    assert not held.called
+
+
+def copies_in(folder: Path, archives: dict[str, dict[str, str]]) -> dict[str, str]:
+    for archive, files in archives.items():
+        with zipfile.ZipFile(folder / archive, "w") as zipped:
+            for name, text in files.items():
+                zipped.writestr(name, text)
+    paths = [PurePosixPath(f"{archive}/{name}") for archive, files in archives.items() for name in files]
+    return {str(p): str(of) for p, of in packed_copies(folder, paths).items()}
+
+
+@pytest.mark.parametrize(
+    "told",
+    [["T{k}/S1.csv"], ["axis1.csv"], ["axis1.csv", "axis2.csv"], ["S/S1.csv"]],
+)
+def test_a_numbered_log_that_archives_of_other_tests_share_is_one_of_each(tmp_path: Path, told: list[str]) -> None:
+    of_days = {
+        f"day{k}.zip": {f"T{k}/T{k}_disp.csv": f"time [s],x\n0,{k}\n"}
+        | {name.format(k=k): "time [s],n\n0,3000\n" for name in told}
+        for k in (1, 2)
+    }
+    assert copies_in(tmp_path, of_days) == {}
+
+
+def test_folders_of_tests_that_two_archives_share_are_copies(tmp_path: Path) -> None:
+    def files(*tests: int) -> dict[str, str]:
+        return {f"T{k}/{name}.csv": f"time [s],{name}\n0,{k}\n" for k in tests for name in ("d", "S1")}
+
+    assert copies_in(tmp_path, {"week.zip": files(1, 2, 3), "b.zip": files(2, 9) | {"T9/e.csv": "x"}}) == {
+        f"b.zip/T2/{name}.csv": f"week.zip/T2/{name}.csv" for name in ("d", "S1")
+    }
 
 
 def test_a_log_that_is_gone_by_now_is_no_copy(tmp_path: Path) -> None:

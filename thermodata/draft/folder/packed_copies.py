@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from functools import cache, partial
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property, partial
 from pathlib import Path, PurePosixPath
 
 from thermodata.archive.members import archive_of, listed, size_of
@@ -15,22 +16,21 @@ from thermodata.reader.files.rotated import as_unpacked
 from thermodata.schema.words.sentences import with_count
 
 _SHOWN = 3
-_NUMBER = re.compile(r"\d")
+_NUMBER = re.compile(r"\d+")
 
 
 def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
     """Packed file -> the one that is called as it was before, and holds the same: 'a.csv.gz' -> 'a.csv',
     'day.zip/a.csv' -> 'day/a.csv', 'a.csv.xz' -> 'a.csv.gz' beside it. Of two archives only where all that is in one
-    is in the other, or all that is called alike in both is equal and has a number in its name, as 'T3.csv' of a day in
-    the week's: logs of two tests may well be equal, as a speed that both were told."""
-    size, digest = cache(partial(_size, folder)), cache(partial(_digest, folder))
-    new = partial(_Known, size, digest)
-    known = new()
-    archives: dict[Path, list[PurePosixPath]] = {}
+    is in the other, or all that stands at one place in both is equal and has a number that counts tests, as 'T3.csv' of
+    a day in the week's: logs of two tests may well be equal, as a speed that both were told."""
+    asked = _Asked(folder)
+    known = _Known(asked)
+    archives: dict[Path, dict[str, PurePosixPath]] = {}
     alone = []
     for path in paths:
         if (inside := archive_of(folder / path)) is not None:
-            archives.setdefault(inside[0], []).append(path)
+            archives.setdefault(inside[0], {})[inside[1]] = path
         elif as_unpacked(path) != path:
             alone.append(path)
         else:
@@ -38,23 +38,18 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     found = {p: of for p in alone if (of := known.like(p)) is not None}
     beside: dict[PurePosixPath, _Known] = {}
     for path in (p for p in alone if p not in found):
-        if (of := beside.setdefault(path.parent, new()).like(path)) is not None:
+        if (of := beside.setdefault(path.parent, _Known(asked)).like(path)) is not None:
             found[path] = of
         else:
             beside[path.parent].add(path)
     for path in (p for p in alone if p not in found):
         known.add(path)
-    whole: list[_Known] = []
-    for files in sorted(archives.values(), key=len, reverse=True):
-        copies = {p: of for p in files if (of := known.like(p)) is not None}
-        rest = [p for p in files if p not in copies]
-        found |= copies | (
-            next((again for other in whole if (again := other.all_like(rest))), {})
-            or {p: of for other in whole for p, of in other.shared_with(rest).items()}
-        )
-        whole.append(new())
-        for path in (p for p in rest if p not in found):
-            whole[-1].add(path)
+    others = _Archives(asked)
+    for archive in (_Archive(files) for files in sorted(archives.values(), key=len, reverse=True)):
+        found |= {p: of for p in archive.files.values() if (of := known.like(p)) is not None}
+        rest = {inside: p for inside, p in archive.files.items() if p not in found}
+        found |= others.with_all(rest.values()) or others.sharing(archive, rest)
+        others.add(archive, {inside: p for inside, p in rest.items() if p not in found})
     return found
 
 
@@ -65,27 +60,42 @@ def cut_archives(folder: Path, paths: Iterable[PurePosixPath]) -> list[tuple[str
     return [(a.relative_to(folder).as_posix(), lost) for a in archives if (lost := listed(a).lost) is not None]
 
 
+class _Asked:
+    """What is asked of files, once each."""
+
+    def __init__(self, folder: Path) -> None:
+        self.size, self.digest = cache(partial(_size, folder)), cache(partial(_digest, folder))
+        self.name = cache(_name)
+
+    def may_be(self, path: PurePosixPath, of: PurePosixPath) -> bool:
+        """Whether two may hold the same, by their sizes."""
+        size = self.size(path)
+        return size is None or self.size(of) in (size, None)
+
+    def are_equal(self, path: PurePosixPath, of: PurePosixPath) -> bool:
+        return self.may_be(path, of) and self.digest(path) == self.digest(of) is not None
+
+
 class _Known:
     """Files by the names of their logs."""
 
-    def __init__(
-        self, size: Callable[[PurePosixPath], int | None], digest: Callable[[PurePosixPath], bytes | None]
-    ) -> None:
-        self._size, self._digest, self._named = size, digest, dict[str, list[PurePosixPath]]()
+    def __init__(self, asked: _Asked) -> None:
+        self._asked, self._named = asked, dict[str, list[PurePosixPath]]()
 
     def add(self, path: PurePosixPath) -> None:
-        self._named.setdefault(as_unpacked(path).name, []).append(path)
+        self._named.setdefault(self._asked.name(path), []).append(path)
+
+    def may_have(self, path: PurePosixPath) -> bool:
+        """Whether one that is called as the file was before it was packed may hold the same."""
+        return any(self._asked.may_be(path, of) for of in self._named.get(self._asked.name(path), ()))
 
     def like(self, path: PurePosixPath) -> PurePosixPath | None:
-        """One that is called as the file was before it was packed, and holds the same."""
-        fits = self._fitting(path)
-        mine = self._digest(path) if fits else None
-        return next((o for o in fits if self._digest(o) == mine is not None), None)
+        """One that is called so, and holds the same."""
+        return next((o for o in self._named.get(self._asked.name(path), ()) if self._asked.are_equal(path, o)), None)
 
     def all_like(self, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
-        """The same of all that can be read in an archive; none where one has no such file."""
-        paths = [p for p in paths if self._size(p) is not None]
-        if not all(map(self._fitting, paths)):
+        """The same of all of them; none where one has no such file."""
+        if not all(map(self.may_have, paths)):
             return {}
         found: dict[PurePosixPath, PurePosixPath] = {}
         for path in paths:
@@ -94,17 +104,73 @@ class _Known:
             found[path] = of
         return found
 
-    def shared_with(self, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
-        """The same of what one archive shares with another in part; none where a file of one name differs: such names
-        are those of any test."""
-        both = [p for p in paths if as_unpacked(p).name in self._named]
-        found = {p: of for p in both if _NUMBER.search(as_unpacked(p).stem) and (of := self.like(p)) is not None}
-        return found if len(found) == len(both) else {}
 
-    def _fitting(self, path: PurePosixPath) -> list[PurePosixPath]:
-        """Those of its name that may hold the same, by their sizes."""
-        size, named = self._size(path), self._named.get(as_unpacked(path).name, ())
-        return [o for o in named if size is None or self._size(o) in (size, None)]
+@dataclass(frozen=True, eq=False)
+class _Archive:
+    """files: by their paths within it."""
+
+    files: Mapping[str, PurePosixPath]
+
+    def counts_beside(self, other: _Archive, inside: str) -> bool:
+        """Whether a number in a path counts tests: the same path has another one in one of two archives, as T1 to T3
+        and T3 to T5; 'axis1.csv' of each test has not."""
+        pattern = _pattern(inside)
+        return self._patterns[pattern] != other._patterns[pattern]
+
+    @cached_property
+    def _patterns(self) -> dict[str, set[str]]:
+        found: dict[str, set[str]] = {}
+        for inside in self.files:
+            found.setdefault(_pattern(inside), set()).add(inside)
+        return found
+
+
+class _Archives:
+    """Those that were looked at, by what is no copy in them: an archive is held only against such as share a name."""
+
+    def __init__(self, asked: _Asked) -> None:
+        self._asked = asked
+        self._named: dict[str, list[_Known]] = {}
+        self._at: dict[str, list[tuple[_Archive, PurePosixPath]]] = {}
+
+    def add(self, archive: _Archive, files: Mapping[str, PurePosixPath]) -> None:
+        """files: those in it that are no copies, by their paths within it."""
+        known = _Known(self._asked)
+        for inside, path in files.items():
+            known.add(path)
+            self._at.setdefault(inside, []).append((archive, path))
+        for name in {self._asked.name(path) for path in files.values()}:
+            self._named.setdefault(name, []).append(known)
+
+    def with_all(self, paths: Iterable[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+        """The same, in one other archive, of all that can be read in one; none where no other has all."""
+        paths = [p for p in paths if self._asked.size(p) is not None]
+        others: list[_Known] = min((self._named.get(self._asked.name(p), []) for p in paths), key=len, default=[])
+        return next((again for other in others if (again := other.all_like(paths))), {})
+
+    def sharing(self, archive: _Archive, files: Mapping[str, PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+        """The same of what an archive shares in part with others; none with one where a file at one place differs, or
+        its path is that of any test. files: those of it that are no copies yet."""
+        shared: dict[_Archive, dict[str, PurePosixPath]] = {}
+        for inside in files:
+            for other, of in self._at.get(inside, ()):
+                shared.setdefault(other, {})[inside] = of
+        return {
+            files[inside]: of
+            for other, both in shared.items()
+            if all(archive.counts_beside(other, inside) for inside in both)
+            and all(self._asked.are_equal(files[inside], of) for inside, of in both.items())
+            for inside, of in both.items()
+        }
+
+
+def _pattern(inside: str) -> str:
+    return _NUMBER.sub("#", inside)
+
+
+def _name(path: PurePosixPath) -> str:
+    """What a log is called that was packed alone, or not."""
+    return as_unpacked(path).name
 
 
 def _size(folder: Path, path: PurePosixPath) -> int | None:
