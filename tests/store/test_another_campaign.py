@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from store_fakes import CAMPAIGN, daq, write_campaign, write_log
+from store_fakes import CAMPAIGN, daq, times, write_campaign, write_log
 
 from thermodata.errors import UsageError
 from thermodata.store import Store
@@ -76,9 +77,9 @@ def test_exported_anew_and_moved_it_is_the_same_as_long_as_the_days_are(filled: 
     assert ingest(filled, winter(tmp_path / "archive", days=0.3)).read == 4
 
 
-def winter(folder: Path, days: float, seed: int = 0, **meta: str) -> Path:
+def winter(folder: Path, days: float, seed: int = 0, text: str = CAMPAIGN, **meta: str) -> Path:
     """The same machine and the same names, recorded so many days later."""
-    path = write_campaign(folder)
+    path = write_campaign(folder, text)
     for i, log in enumerate(sorted(folder.glob("raw/*.npz"))):
         nc = log.name.endswith(".nc.npz")
         streams = daq(130, seed=90 + seed + i, start_s=86_400 * days)
@@ -215,3 +216,101 @@ def test_one_that_was_forgotten_leaves_its_id(filled: Store, tmp_path: Path) -> 
 
     forget(filled, "shop")
     assert ingest(filled, others(tmp_path / "messung")).tests == 2
+
+
+def hall(start_s: float = -3600.0, n: int = 200) -> dict[str, dict[str, Any]]:
+    """The log of a hall, which begins before all tests."""
+    t_ns = times(n, 60.0, start_s)
+    return {"main": {"t_ns": t_ns, "T1": 20 + np.arange(n) / 600}}
+
+
+HALL = CAMPAIGN.replace(
+    "channels:\n",
+    '  hall: {reader: npz, files: "raw/hall.npz"}\nchannels:\n  T_h: {source: hall, signal: T1, unit: degC}\n',
+    1,
+)
+
+
+@pytest.fixture
+def halled(store: Store, tmp_path: Path) -> Store:
+    """The campaign with a log of the hall that its tests share."""
+    path = write_campaign(tmp_path / "lab", HALL)
+    write_log(path.parent / "raw/hall.npz", hall())
+    ingest(store, path)
+    return store
+
+
+def test_a_test_that_is_not_measured_yet_lets_no_other_campaign_through(filled: Store, tmp_path: Path) -> None:
+    """A template that was copied while measuring goes on."""
+    campaign, before = winter(tmp_path / "winter", days=60), held(filled)
+    for log in campaign.parent.glob("raw/two*"):
+        log.unlink()
+    with pytest.raises(UsageError, match="the test one with other logs, of other days"):
+        ingest(filled, campaign)
+    assert held(filled) == before
+
+
+@pytest.mark.parametrize("rows", [200, 260], ids=["the same", "grown"])
+def test_the_log_of_a_hall_lets_no_other_campaign_through(halled: Store, tmp_path: Path, rows: int) -> None:
+    campaign, before = winter(tmp_path / "winter", days=60, text=HALL), held(halled)
+    write_log(campaign.parent / "raw/hall.npz", hall(n=rows))
+    for measured in ("one", "two"):  # all of them, and one while the other is not measured yet
+        with pytest.raises(UsageError, match="with other logs, of other days"):
+            ingest(halled, campaign)
+        for log in campaign.parent.glob(f"raw/{measured}*"):
+            log.unlink()
+        if measured == "two":
+            break
+    with pytest.raises(UsageError, match="with other logs, of other days or of none"):
+        ingest(halled, campaign)
+    assert held(halled) == before
+
+
+def test_a_log_that_was_left_from_the_template_lets_no_other_campaign_through(
+    filled: Store, campaign: Path, tmp_path: Path
+) -> None:
+    other, before = winter(tmp_path / "winter", days=60), held(filled)
+    shutil.copy(campaign.parent / "raw/one_a.npz", other.parent / "raw/one_a.npz")
+    with pytest.raises(UsageError, match="the test two with other logs"):
+        ingest(filled, other)
+    assert held(filled) == before
+
+
+def test_moved_with_a_hall_log_that_grew_and_one_log_exported_anew_it_goes_on(halled: Store, tmp_path: Path) -> None:
+    path = shutil.copytree(tmp_path / "lab", tmp_path / "archive") / "campaign.yaml"
+    write_log(path.parent / "raw/hall.npz", hall(n=260))
+    write_log(path.parent / "raw/one_a.npz", daq(seed=60))
+    path.write_text(path.read_text() + "  - {id: three, kind: spindle}\n")
+    write_log(path.parent / "raw/three_a.npz", daq(seed=61, start_s=86_400 * 60))
+    assert ingest(halled, path).tests == 3
+
+
+def test_tests_that_are_cut_out_of_one_recording_are_known_by_its_days(store: Store, tmp_path: Path) -> None:
+    text = CAMPAIGN.replace("raw/{test}_*.npz", "raw/all.npz").replace(
+        "kind: spindle, role", "window: [0 s, 600 s], role"
+    )
+
+    def recorded(folder: str, days: float, seed: int) -> Path:
+        path = write_campaign(tmp_path / folder, text.replace("role:", "kind: spindle, role:"), logs=False)
+        write_log(path.parent / "raw/all.npz", daq(seed=seed, start_s=86_400 * days))
+        return path
+
+    ingest(store, recorded("lab", 0, 1))
+    with pytest.raises(UsageError, match="of other days"):
+        ingest(store, recorded("winter", 60, 2))
+    assert ingest(store, recorded("archive", 0, 3)).read == 1
+
+
+@pytest.mark.parametrize("months", [0, 2])
+def test_logs_without_dates_are_of_the_start_of_their_test(store: Store, tmp_path: Path, months: int) -> None:
+    def begun(month: int) -> str:
+        text = CAMPAIGN.replace("id: one,", f"id: one, start: '2026-0{month}-02 08:00',")
+        return text.replace("id: two,", f"id: two, start: '2026-0{month}-03 08:00',")
+
+    ingest(store, winter(tmp_path / "autumn", days=0, text=begun(2), clock="relative"))
+    anew = winter(tmp_path / "archive", days=0, seed=7, text=begun(2 + months), clock="relative")
+    if months:
+        with pytest.raises(UsageError, match="of other days"):
+            ingest(store, anew)
+    else:
+        assert ingest(store, anew).read == 4

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,10 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     """UsageError where the store holds another campaign with that id, whose tests and logs would go. path: of the
     campaign file.
 
-    It is the same one where it stands at the same place and its machine is no other, where its logs say so, or where
-    the machine is the same and a test that has no logs now, or logs of the same days: then it may move, its logs may be
-    exported anew, and its machine and tests may get other names."""
+    It is the same one where it stands at the same place and its machine is no other, where all logs are here that are
+    held, where logs of its own say so, or where the machine is the same and a test that has logs of the same days, or
+    none of them has any now: then it may move, its logs may be exported anew, and its machine and tests may get other
+    names. Elsewhere it is another one by a single test whose logs are all of other days."""
     held = _logs_held(inventory)
     if inventory.campaign is None or not held:
         return
@@ -34,17 +36,23 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     if len(machines - {_UNKNOWN}) < 2 and stays:
         return
     found = {t.id: _logs_found(files, t) for t in files.campaign.tests}
-    if _has_its_logs(held, found):
+    if _all_of(held) <= _all_of(found):
+        return
+    compared = _Compared(inventory, files, held, found)
+    later = [] if stays else compared.of_other_days()
+    if not later and _has_its_logs(held, found):
         return
     one_machine = len(machines) == 1 and _UNKNOWN not in machines
-    named = [t for t in files.campaign.tests if t.id in held] if one_machine else []
-    if any(not found[t.id] or held[t.id] & found[t.id] or is_of_its_days(inventory, files, t) for t in named):
+    named = compared.named if one_machine else []
+    if named and not later and compared.goes_on():
         return
     got = "none of them"
     if stays:
         got = "that file, of another machine"
-    elif named:
-        got = f"the tests {with_count([t.id for t in named], _NAMED)} with other logs, of other days or of none"
+    elif named or later:
+        ids = later or [t.id for t in named]
+        tests = "the test" if len(ids) == 1 else "the tests"
+        got = f"{tests} {with_count(ids, _NAMED)} with other logs, of other days or of none"
     raise UsageError(
         f"the store holds another campaign with the id '{inventory.name}'",
         where="id",
@@ -63,17 +71,56 @@ def is_same_place(stored: str, path: Path) -> bool:
     return stored == str(path) or Path(stored).resolve() == path.resolve()
 
 
+@dataclass(frozen=True, slots=True)
+class _Compared:
+    """The tests that both have by name. held, found: test -> hashes of its logs, in the store and beside the file."""
+
+    inventory: Inventory
+    files: CampaignFiles
+    held: Mapping[str, set[str]]
+    found: Mapping[str, set[str]]
+
+    @property
+    def named(self) -> list[Test]:
+        return [t for t in self.files.campaign.tests if t.id in self.held]
+
+    def of_other_days(self) -> list[str]:
+        """The tests whose own logs are all of other days than those that are held, and none of them is held."""
+        shared = self._shared()
+        known = _all_of(self.held) - shared
+        return [t.id for t in self.named if not self.found[t.id] & known and self._days(t, shared) is False]
+
+    def goes_on(self) -> bool:
+        """Whether no test has a log now, or one has a log of its own that is held, or one of the same days."""
+        if not any(self.found[t.id] for t in self.named):
+            return True
+        shared = self._shared()
+        return any((self.held[t.id] & self.found[t.id]) - shared or self._days(t, shared) for t in self.named)
+
+    def _days(self, test: Test, shared: Set[str]) -> bool | None:
+        return is_of_its_days(self.inventory, self.files, test, shared)
+
+    def _shared(self) -> set[str]:
+        """Logs that say nothing of one test; none where no test that is held has another one, as where all are cut out
+        of one recording."""
+        shared = _of_several(self.held) | _of_several(self.found)
+        return shared if _all_of(self.held) - shared else set()
+
+
 def _has_its_logs(held: Mapping[str, set[str]], found: Mapping[str, set[str]]) -> bool:
-    """Whether a test has all the logs of one that is held, or some of them and no other; or all logs are here that are
-    held. One that several tests share, as all campaigns of a hall may share it, proves nothing of a test."""
-    if set().union(*held.values()) <= set().union(*found.values()):
-        return True
+    """Whether a test has all the logs of one that is held, or some of them and no other. One that several tests share,
+    as all campaigns of a hall may share it, proves nothing of a test."""
     shared = _of_several(held) | _of_several(found)
     return any(
         now and before and (now <= before or now >= before)
         for now in (logs - shared for logs in found.values())
         for before in (logs - shared for logs in held.values())
     )
+
+
+def _all_of(logs: Mapping[str, set[str]]) -> set[str]:
+    """The logs of all tests."""
+    return set().union(*logs.values())
 
 
 def _of_several(logs: Mapping[str, set[str]]) -> set[str]:
