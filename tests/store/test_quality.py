@@ -68,6 +68,21 @@ def test_what_came_before_a_window_is_told_of_one_test_as_it_is_counted(store: S
     assert told == [("early", "spike", 2), ("late", "spike", 1)]
 
 
+def test_a_gap_before_a_window_is_one_of_the_test_in_which_it_is(store: Store, tmp_path: Path) -> None:
+    tests = """tests:
+  - {id: early, kind: spindle, files: {daq: raw/day.npz}, window: [0 s, 6000 s], history: recording}
+  - {id: late, kind: spindle, files: {daq: raw/day.npz}, window: [6000 s, 17990 s], history: recording}
+"""
+    path = write_campaign(tmp_path / "lab", DAYS[: DAYS.index("tests:")] + tests, logs=False)
+    log = day(1)
+    kept = np.r_[0:60, 110:N]
+    log["main"] = {name: values[kept] for name, values in log["main"].items()}
+    write_log(path.parent / "raw/day.npz", log)
+    ingest(store, path)
+    with store.reader() as con:
+        assert con.execute("select distinct test from gap").fetchall() == [("early",)]
+
+
 def test_a_sensor_that_failed_between_two_days_is_flagged_from_then_on(store: Store, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab", DAYS, logs=False)
     for number in (1, 2):

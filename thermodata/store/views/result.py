@@ -27,9 +27,9 @@ QUALITY = f"""create view quality as
 select campaign, test, source, channel, lower(flag) as flag, from_s, to_s, n, detail from quality_event e
 where {OF_ITS_TEST}"""
 
-GAP = """create view gap as
+GAP = f"""create view gap as
 select campaign, test, source, channel, from_s, to_s, to_s - from_s as duration_s, detail
-from quality_event where lower(flag) = 'gap'"""
+from quality_event e where lower(flag) = 'gap' and {OF_ITS_TEST}"""
 
 _STALE = "coalesce((select m.stale from model m where m.model = {}.model), false)"
 SCORE = f"""create view score as

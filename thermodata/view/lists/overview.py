@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from thermodata.errors import unknown_name
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.store.views.result import OF_ITS_TEST
 
 if TYPE_CHECKING:
     import duckdb
@@ -32,8 +33,8 @@ with counted as (
            unnest(coalesce(cast(columns->'$.flags' as map(varchar, bigint)), map {{}}).map_entries()) as flag
     from file where layer = 'tidy' and part = 'test'),
 idle as (
-    select campaign, test, lower(flag) as flag, sum(n) as n from quality_event
-    where detail = 'only while not measuring' group by all),
+    select campaign, test, lower(flag) as flag, sum(n) as n from quality_event e
+    where detail = 'only while not measuring' and {OF_ITS_TEST} group by all),
 ruled_out as (
     select c.campaign, c.test, sum(greatest(c.flag.value - coalesce(i.n, 0), 0)) as n
     from counted c left join idle i on (i.campaign, i.test, i.flag) = (c.campaign, c.test, lower(c.flag.key))

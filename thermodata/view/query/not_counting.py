@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 from thermodata.schema.units.quantity import MEASURED
+from thermodata.store.views.result import OF_ITS_TEST
 from thermodata.view.query.what_is_read import Read, what_is_read
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def _flagged(con: duckdb.DuckDBPyConnection, read: Read) -> list[tuple[str, str,
         "on c.campaign = e.campaign and c.test = e.test and c.source = e.source and c.stream = e.stream "
         "and (e.channel is null or c.channel = e.channel) "
         "where list_contains($flags, lower(e.flag)) and not starts_with(coalesce(e.detail, ''), $overruled) "
-        f"and {_OF_VIEW.get(read.view, 'true')}{held}",
+        f"and {OF_ITS_TEST} and {_OF_VIEW.get(read.view, 'true')}{held}",
         {
             "flags": list(_NOT_COUNTING),
             "overruled": OVERRULED,
