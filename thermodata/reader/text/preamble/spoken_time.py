@@ -112,7 +112,7 @@ def spoken(text: str) -> Spoken | None:
     lasting = hours is not None and hours["word"] not in _AT
     clock, timed, rest = _clock_in(rest)
     if lasting and clock is not None and _hour(clock) == _WHOLE_DAY:
-        return None  # '24 h' beside a date is how long it took, sooner than the midnight behind it
+        return None  # '24 h' beside a date is more likely how long it took than the midnight behind it
     left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
     whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
     if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
