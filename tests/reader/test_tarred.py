@@ -14,7 +14,7 @@ import pytest
 
 from thermodata.archive.members import listed
 from thermodata.archive.too_much import MOST_FILES
-from thermodata.archive.unpacked import forget_unpacked, held, is_cut
+from thermodata.archive.unpacked import cut_off, forget_unpacked, held
 from thermodata.errors import FormatError
 
 LOG = b"time [s],T_bed [degC]\n" + b"".join(b"%d,%.1f\n" % (i, 20 + i / 10) for i in range(60))
@@ -75,30 +75,45 @@ def test_an_archive_that_would_lose_files_without_a_word_is_refused(
     assert why in (refused.value.got or "")
 
 
+WHOLE = "the archive has no end mark behind 'heat0.csv': if more stood there, it is lost"
+BEHIND = "the archive is cut off behind 'heat0.csv': what stood there is lost"
+WITHIN = "the archive ends within 'heat1.csv': the rest of it, and what stood behind, is lost"
+DATA = 512 + len(LOG)  # behind a header and what it is of
 CUTS = {
-    "within a header": (STEP + 200, None),
-    "before a header": (STEP, None),
-    "behind a header": (STEP + 512, None),
-    "within a file": (STEP + 700, "heat1.csv"),
+    "before a header": (STEP, WHOLE),
+    "within a header": (STEP + 200, BEHIND),
+    "behind a header": (STEP + 512, BEHIND),
+    "within the zeros behind a file": (DATA + 1, BEHIND),
+    "within a file": (STEP + 700, WITHIN),
 }
 
 
 @pytest.mark.parametrize("where", CUTS)
 @pytest.mark.parametrize("pack", [bytes, lzma.compress, gzip.compress])
-def test_an_archive_that_is_cut_off_is_read_to_its_cut(
+def test_an_archive_that_is_cut_off_is_read_to_its_cut_and_says_what_is_lost(
     tmp_path: Path, where: str, pack: Callable[[bytes], bytes]
 ) -> None:
-    at, cut = CUTS[where]
+    at, lost = CUTS[where]
+    cut = "heat1.csv" if lost == WITHIN else None
     archive = written(tmp_path / ("a.tar" if pack is bytes else "a.tar.xz"), pack(THREE[:at]))
     found = listed(archive)
+    assert (found.cut, found.lost) == (cut, lost)
     assert found.names == (("heat0.csv", "heat1.csv") if cut else ("heat0.csv",))
-    assert found.cut == cut
-    assert (found.lost is None) == (cut is not None)
-    assert found.lost is None or "behind 'heat0.csv'" in found.lost
     for name in found.names:
         with held(archive / name) as real:
             assert real.read_bytes() == (LOG[:188] if name == cut else LOG)
-        assert is_cut(archive / name) == (name == cut)
+        assert cut_off(archive / name) == ("the archive ends within this file" if name == cut else None)
+
+
+def test_what_ends_between_two_files_is_cut_where_its_packer_is(tmp_path: Path) -> None:
+    packed = gzip.compress(THREE)
+    assert listed(written(tmp_path / "whole.tar.gz", packed)).lost == WHOLE.replace("heat0", "heat2")
+    assert listed(written(tmp_path / "a.tar.gz", packed[:-4])).lost == BEHIND.replace("heat0", "heat2")
+
+
+def test_a_long_name_whose_file_is_gone_is_no_end_between_two_files(tmp_path: Path) -> None:
+    name = entry("././@LongLink", b"b" * 150 + b"\0", b"L")
+    assert listed(written(tmp_path / "a.tar", entry("heat0.csv"), name)).lost == BEHIND
 
 
 @pytest.mark.parametrize("suffix", ["gz", "xz"])

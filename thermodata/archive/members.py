@@ -43,7 +43,7 @@ _WRONG = (
 class Listed:
     """What an archive holds. sizes: name -> bytes, unpacked; refused: name -> why it is not read; stored: name -> as
     the archive has it; at: name -> where it begins in a TAR archive, unpacked. cut: the name of a file within which the
-    archive ends; ended: whether nothing that stood behind the last one is lost."""
+    archive ends; ended: whether its end mark is there; torn: whether it is known to be cut off where none is."""
 
     archive: str
     sizes: dict[str, int] = field(default_factory=dict)
@@ -52,6 +52,7 @@ class Listed:
     at: dict[str, int] = field(default_factory=dict)
     cut: str | None = None
     ended: bool = True
+    torn: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -65,9 +66,15 @@ class Listed:
 
     @property
     def lost(self) -> str | None:
-        """What is lost of an archive that is cut off behind a file; None where nothing is, or that file tells it."""
+        """What is lost, or may be, of an archive without its end mark; None where it is there."""
+        if self.ended:
+            return None
+        if self.cut is not None:
+            return f"the archive ends within {self.cut!r}: the rest of it, and what stood behind, is lost"
         behind = f"behind {self.names[-1]!r}" if self.names else "behind its last file"
-        return None if self.ended else f"the archive is cut off {behind}: what stood there is lost"
+        if self.torn:
+            return f"the archive is cut off {behind}: what stood there is lost"
+        return f"the archive has no end mark {behind}: if more stood there, it is lost"
 
     def member(self, name: str) -> str:
         """The name of a file as the archive has it. FormatError where it may not be read, FileNotFoundError where there
@@ -175,7 +182,8 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     whole = sum(m.size for m in members)
     if len(members) > MOST_FILES or whole > most:
         raise more_than_logs(name, most, len(members), whole)
-    found = Listed(name, cut=next((_path(m) for m in members if m.cut), None), ended=held.ended)
+    cut = next((_path(m) for m in members if m.cut), None)
+    found = Listed(name, cut=cut, ended=held.ended, torn=held.torn)
     last, again = {_path(m): m for m in members}, "there are two of this name"
     twice = {path for path, n in Counter(map(_path, members)).items() if n > 1 and kind == "ZIP"}
     for m in members:

@@ -34,10 +34,12 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Tarred:
-    """ended: whether the end mark stands behind the files; where none does, what stood behind the last one is lost."""
+    """ended: whether the end mark stands behind the files; torn: whether it is known to be cut off, within a file, its
+    header or the zeros behind it. One that ends between two files may have no more of them."""
 
     members: list[Member]
     ended: bool = True
+    torn: bool = False
 
 
 def tarred(archive: Path, most: int) -> Tarred:
@@ -72,21 +74,21 @@ def _members(stream: _Forward) -> Tarred:
     except EOFError:
         if not found:
             raise
-        return _cut(found, stream.end())
+        return _cut(found, stream.end(), torn=not stream.between)
     stream.must_end()
     return Tarred(found)
 
 
-def _cut(found: list[Member], end: int) -> Tarred:
-    """The files of an archive that is cut off at a byte."""
+def _cut(found: list[Member], end: int, torn: bool) -> Tarred:
+    """The files of an archive that ends at a byte, without its end mark."""
     last = found[-1]
     if last.at + last.size <= end:
-        return Tarred(found, ended=False)
+        return Tarred(found, ended=False, torn=torn)
     if (left := end - last.at) > 0:
-        return Tarred([*found[:-1], replace(last, size=left, cut=True)])
+        return Tarred([*found[:-1], replace(last, size=left, cut=True)], ended=False, torn=True)
     if len(found) == 1:
         raise EOFError(_ENDS)
-    return Tarred(found[:-1], ended=False)
+    return Tarred(found[:-1], ended=False, torn=True)
 
 
 def _refused(member: tarfile.TarInfo) -> str | None:
@@ -96,10 +98,12 @@ def _refused(member: tarfile.TarInfo) -> str | None:
 
 
 class _Forward:
-    """An archive for `tarfile`: never back, never on beyond what may be unpacked, never short without an error."""
+    """An archive for `tarfile`: never back, never on beyond what may be unpacked, never short without an error.
+    between: it ends where a header may begin, and what it is packed in is whole."""
 
     def __init__(self, stream: Unpacking, name: str, most: int) -> None:
-        self.name, self.most = name, most
+        self.name, self.most, self.between = name, most, False
+        self._whole = True
         self._stream, self._at, self._block = stream, 0, b""
         self._header = self._headers = 0
 
@@ -123,6 +127,8 @@ class _Forward:
         self._header, self._headers = self._header + size, self._headers + size
         self._block = self._read(size)
         if len(self._block) < size:
+            first = self._header <= 1 + tarfile.BLOCKSIZE  # behind the last byte of what stands before it
+            self.between = self._whole and first and size == tarfile.BLOCKSIZE and not self._block
             raise EOFError(_ENDS)
         return self._block
 
@@ -133,8 +139,9 @@ class _Forward:
         if isinstance(self._stream, BufferedReader):
             self._at = self._stream.seek(to)
             return to
-        while self._at < to and self._read(min(to - self._at, _PART)):
-            pass  # unpacked, counted, and let go
+        more = True
+        while more and self._at < to:  # unpacked, counted, and let go
+            more = bool(self._read(min(to - self._at, _PART)))
         return self._at
 
     def must_end(self) -> None:
@@ -163,4 +170,5 @@ class _Forward:
         try:
             return self._stream.read1(size)
         except EOFError:
+            self._whole = False
             return b""

@@ -78,16 +78,16 @@ def held(path: Path) -> Iterator[Path]:
             copy.held -= 1
 
 
-def is_cut(path: Path) -> bool:
-    """Whether a log was packed alone and is cut off, or the archive ends within it, so that what was unpacked is its
-    beginning."""
+def cut_off(path: Path) -> str | None:
+    """What is cut off of a log, so that what was unpacked is its beginning: the file that it was packed in alone, or
+    the archive. None where nothing is."""
     where = _packed_in(path)
     if where is None:
-        return False
+        return None
     if where[1]:
-        return listed(where[0]).cut == where[1]
+        return "the archive ends within this file" if listed(where[0]).cut == where[1] else None
     with _lock:
-        return _copy(*where).cut
+        return "the packed file is cut off" if _copy(*where).cut else None
 
 
 def forget_unpacked() -> None:

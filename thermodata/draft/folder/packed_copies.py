@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from pathlib import Path, PurePosixPath
 
-from thermodata.archive.members import archive_of, listed, size_of
+from thermodata.archive.members import archive_of, size_of
 from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError
 from thermodata.reader.files.rotated import as_unpacked
@@ -51,13 +51,6 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         found |= others.with_all(rest.values()) or others.sharing(archive, rest)
         others.add(archive, {inside: p for inside, p in rest.items() if p not in found})
     return found
-
-
-def cut_archives(folder: Path, paths: Iterable[PurePosixPath]) -> list[tuple[str, str]]:
-    """(archive, what is lost of it), of those that end behind a file without an end mark."""
-    inside = (archive_of(folder / path) for path in paths)
-    archives = dict.fromkeys(found[0] for found in inside if found is not None)
-    return [(a.relative_to(folder).as_posix(), lost) for a in archives if (lost := listed(a).lost) is not None]
 
 
 class _Asked:

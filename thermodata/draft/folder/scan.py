@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.archive.cut import cut_archives
 from thermodata.archive.members import size_of
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.files.raw_file import (
@@ -25,7 +26,7 @@ from thermodata.draft.files.sample import SMALL, Watch, short
 from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfinished_in
 from thermodata.draft.folder.lent_names import with_lent_names
 from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
-from thermodata.draft.folder.packed_copies import by_archive, cut_archives, packed_copies
+from thermodata.draft.folder.packed_copies import by_archive, packed_copies
 from thermodata.draft.folder.settings import settings_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
@@ -70,9 +71,8 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         logs = {key: made for key, made in logs.items() if str(made.path) != one} | {one: whole}
     logs = _with_single_sheets(folder, logs)
     sampled = _sampled(folder, logs, tell)
-    damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f))) + cut_archives(
-        folder, paths
-    )
+    damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
+    damaged += cut_archives(map(str, paths), lambda path: folder / path).items()
     position = {str(p): i for i, p in enumerate(paths)}
     ignored, failed = (sorted(told, key=lambda item: position[item[0]]) for told in (look.ignored, look.failed))
     ignored = by_archive(folder, ignored, [path for path, _ in failed], [str(f.path) for f in sampled])

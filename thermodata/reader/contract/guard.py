@@ -9,13 +9,13 @@ from pathlib import Path
 
 from thermodata.archive.packed_by import packed_by
 from thermodata.archive.regular import opened, refuse_what_never_ends
-from thermodata.archive.unpacked import PACKED, held, is_cut
+from thermodata.archive.unpacked import PACKED, cut_off, held
 from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
 from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Reader, Recording, Source
 from thermodata.reader.contract.heeded import Watched
 from thermodata.reader.contract.rules import RECORDING_RULES, broken_rule, sentence
 
-_CUT = "the packed file is cut off: what stands before the cut is read"
+_CUT = "what stands before the cut is read"
 
 
 @contextmanager
@@ -38,8 +38,8 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
     refuse_what_never_ends(path)
     with held_for(reader, path) as real:
         recording = _described(reader, real, source)
-    if _is_cut_for(reader, path):
-        return replace(recording, complete=False, notes=(_CUT, *recording.notes))
+    if (said := _cut_off_for(reader, path)) is not None:
+        return replace(recording, complete=False, notes=(f"{said}: {_CUT}", *recording.notes))
     return recording
 
 
@@ -63,8 +63,8 @@ def _described(reader: Reader, path: Path, source: Source) -> Recording:
     return recording
 
 
-def _is_cut_for(reader: Reader, path: Path) -> bool:
-    return not (path.is_file() and takes_packed(reader, path)) and is_cut(path)
+def _cut_off_for(reader: Reader, path: Path) -> str | None:
+    return None if path.is_file() and takes_packed(reader, path) else cut_off(path)
 
 
 def held_for(reader: Reader, path: Path) -> AbstractContextManager[Path]:
@@ -106,8 +106,8 @@ def guarded(reader: Reader, path: Path, source: Source, recording: Recording | N
     said = described(reader, path, source) if recording is None else recording
     with held_for(reader, path) as real:
         yield from _guarded(reader, real, source, said)
-    if _is_cut_for(reader, path):
-        yield Loss(f"the end of {path.name}", None, None, None, _CUT)
+    if (cut := _cut_off_for(reader, path)) is not None:
+        yield Loss(f"the end of {path.name}", None, None, None, f"{cut}: {_CUT}")
 
 
 def _guarded(reader: Reader, path: Path, source: Source, said: Recording) -> Iterator[Block | Loss]:

@@ -5,6 +5,7 @@ A control's export, a logger's CSV, a spreadsheet saved as text: `table` looks a
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -152,8 +153,8 @@ def _notes_of_counts(table: Table, source: Source) -> list[str]:
     reader = RowReader(table, source, 1)
     starts: dict[str, None] = {}
     for some in (table.sample.head[table.layout.first :], table.sample.rest):
-        for _ in reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)):
-            pass  # what it met on the way stands in the reader
+        # what it met on the way stands in the reader
+        deque(reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)), maxlen=0)
         starts.update({begin.text: None for begin in reader.anew})
     notes = [f"times count anew from the start in a further head: '{text}'" for text in starts]
     timed = [(c.timed.group.time, c.counter) for c in reader.clocks]

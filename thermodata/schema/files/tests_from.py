@@ -9,7 +9,7 @@ from typing import Any
 
 from thermodata.archive.members import listed
 from thermodata.archive.patterns import in_archives
-from thermodata.archive.unpacked import held, is_cut
+from thermodata.archive.unpacked import cut_off, held
 from thermodata.errors import FormatError, SpecError, ThermodataError, nearest
 from thermodata.schema.files.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.strict.explain import validate
@@ -215,8 +215,8 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
     inside(spec.table.file, document, (*place, "table", "file"))
     try:
         with held(folder / spec.table.file) as path:
-            if is_cut(folder / spec.table.file):
-                raise ValueError("the packed file is cut off: rows, or the end of one, are missing")
+            if (cut := cut_off(folder / spec.table.file)) is not None:
+                raise ValueError(f"{cut}: rows, or the end of one, are missing")
             frame = _frame(path, spec.table.sheet)
     except (OSError, ValueError, ImportError, FormatError) as error:
         raise SpecError(

@@ -8,13 +8,13 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from thermodata.archive.cut import cut_archives
 from thermodata.calibration.jump.limits import MOVES, with_limits
 from thermodata.schema.agreed.left_out import left_out_for_a_fault
 from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers
 from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
-from thermodata.store.ingest.told.cut_archives import cut_archives
 from thermodata.store.ingest.told.empty_channels import nothing_brought
 from thermodata.store.ingest.told.how_logs_stand import how_logs_stand
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
@@ -112,7 +112,7 @@ def _losses(layers: Layers, notes: Mapping[str, TestNote]) -> Losses:
 
 def _cut_archives(layers: Layers, files_of_tests: Mapping[str, Sequence[str]]) -> Losses:
     every = dict.fromkeys(path for paths in files_of_tests.values() for path in paths)
-    return cut_archives(every, layers.files.full)
+    return [loss_row(lost, file=archive) for archive, lost in cut_archives(every, layers.files.full).items()]
 
 
 def _how_logs_stand(

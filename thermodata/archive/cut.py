@@ -8,13 +8,12 @@ from pathlib import Path
 
 from thermodata.archive.members import archive_of, is_archive, listed
 from thermodata.errors import FormatError
-from thermodata.store.ingest.told.losses import Losses, loss_row
 
 
-def cut_archives(paths: Iterable[str], full: Callable[[str], Path]) -> Losses:
-    """A loss for each archive that a file is read from and behind whose last one more may have stood. paths: of the
-    source files; full: where one stands on the disk."""
-    found: Losses = []
+def cut_archives(paths: Iterable[str], full: Callable[[str], Path]) -> dict[str, str]:
+    """Archive -> what is lost of it, or may be, of those that files are read from. paths: of the files; full: where one
+    stands on the disk. One that can't be read says so where its files are read."""
+    found: dict[str, str] = {}
     asked: set[Path] = set()
     for path in paths:
         inside = archive_of(full(path))
@@ -25,6 +24,5 @@ def cut_archives(paths: Iterable[str], full: Callable[[str], Path]) -> Losses:
         with suppress(FormatError, OSError):
             lost = listed(archive).lost if inside is not None or is_archive(archive) else None
             if lost is not None:
-                named = path if inside is None else path.removesuffix(f"/{inside[1]}")
-                found.append(loss_row(lost, file=named))
+                found[path if inside is None else path.removesuffix(f"/{inside[1]}")] = lost
     return found
