@@ -89,6 +89,16 @@ def winter(folder: Path, days: float, seed: int = 0, text: str = CAMPAIGN, **met
     return path
 
 
+def test_a_copied_file_whose_logs_are_to_come_takes_no_place(filled: Store, tmp_path: Path) -> None:
+    folder = tmp_path / "winter"
+    ingest(filled, write_campaign(folder, CAMPAIGN, logs=False))
+    before = held(filled)
+    campaign = winter(folder, days=60)  # measured since
+    with pytest.raises(UsageError, match="another campaign with the id 'shop'"):
+        ingest(filled, campaign)
+    assert held(filled) == before
+
+
 def test_it_takes_the_place_where_that_is_said(filled: Store, tmp_path: Path) -> None:
     summary = ingest(filled, others(tmp_path / "messung"), in_its_place=True)
     assert summary.changed

@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -124,23 +125,26 @@ def _ingest(
     left = left_alone(lines, files.tests_with(earlier.differs))
     with store.marked_reader() as (con, mark):
         inventory = _inventory(con, store, files, left, mark == earlier.kept.get("mark"))
+    refuse = partial(refuse_another, files=files, path=path.absolute())
     if not in_its_place and not left.tests:  # which are left alone where the campaign file says what it said
-        refuse_another(inventory, files, path.absolute())
+        refuse(inventory)
     refuse_older_reader(inventory, files)
     layers = make_layers(files, inventory, left, now)
     rows = layers.rows(inventory, now)
     notes = layers.notes_of_tests(rows)
     summary = summarize(layers, inventory, rows, notes, path, files_of_tests)
     again = summary.again()
-    planned = _planned(layers, path.absolute(), rows, notes)
+    # where no log stands nothing says whose place it is: a file that was copied for the next tests, which are to come
+    place = path.absolute() if listed or inventory.campaign is None else Path(inventory.campaign["path"])
+    planned = _planned(layers, place, rows, notes)
     changed = changes(planned, inventory)
     if layers.is_as_stored and nothing_new(planned, inventory, changed):
         summary = again
-        mark = _keep_place(store, mark, inventory, path.absolute())
+        mark = _keep_place(store, mark, inventory, place)
     else:
         mark = new_mark()
-        allowed = None if in_its_place else files
-        summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now, allowed)
+        before = None if in_its_place else refuse
+        summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now, before)
         summary.changed = True
         summary.notes += [*taken_out(gone), *read_by_another(inventory, rows["file"])]
         if summary.stale:
@@ -242,10 +246,10 @@ def _commit(
     changed: dict[str, set[str]],
     left: LeftAlone,
     now: datetime,
-    own: CampaignFiles | None,
+    refuse: Callable[[Inventory], None] | None,
 ) -> tuple[list[str], set[str]]:
     """(models gone stale, tests that were taken out). mark: of the commit; inventory: the state that the plan was made
-    from; changed: their `changes`; own: the files of the campaign, which takes no other one's place; None where it may.
+    from; changed: their `changes`; refuse: takes no other campaign's place; None where it may.
     OtherwiseError where tests were left alone and another commit came meanwhile."""
     campaign = planned.campaign
     with store.write(mark=mark) as con:
@@ -253,8 +257,8 @@ def _commit(
             if left.tests:
                 raise OtherwiseError("another commit")
             inventory = read_inventory(con, None, campaign.id)
-            if own is not None:
-                refuse_another(inventory, own, planned.path)
+            if refuse is not None:
+                refuse(inventory)
             changed = changes(planned, inventory)
         stale = commit(con, store.path, planned, inventory, changed, now)
     return stale, changed["test"] - {t.id for t in campaign.tests}
