@@ -80,10 +80,11 @@ _ZONE = re.compile(
 _HOURS = re.compile(r"(?i)\d ?h(?:rs?)?(?!\w)|\dh\d")
 # a number of hours, and the word before it: 'a 8 h' tells a time of day
 _HOURS_ALONE = re.compile(r"(?:(?P<word>[^\W\d_]+)\W+)?(?<![\d:.,])\d{1,3} ?h(?:rs?)?(?!\w)")
+# the same of a whole day, by the words that else stand behind a time of day, too: '8 hod', '8 uur'
+_DAY_LONG = re.compile(r"(?:(?P<word>[^\W\d_]+)\W+)?(?<![\d:.,])24 ?(?:h(?:rs?)?|hod(?:in)?|uur)(?!\w)")
 _AT = frozenset(
     ("a", "um", "at", "v", "ve", "alle", "las", "ore", "kl", "om", "o", "as", "ab", "von", "vom", "from", "de", "dalle")
 )
-_WHOLE_DAY = 24  # [h]
 _LONGEST = 200  # letters that a date is looked for in
 _FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
 
@@ -110,20 +111,15 @@ def spoken(text: str) -> Spoken | None:
         rest = f"{rest[: zone.start()]} {rest[zone.end() :]}"
     hours = _HOURS_ALONE.search(_folded(rest))
     lasting = hours is not None and hours["word"] not in _AT
+    day_long = _DAY_LONG.search(_folded(rest))
     clock, timed, rest = _clock_in(rest)
-    if lasting and clock is not None and _hour(clock) == _WHOLE_DAY:
+    if clock is not None and day_long is not None and day_long["word"] not in _AT:
         return None  # '24 h' beside a date is more likely how long it took than the midnight behind it
     left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
     whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
     if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
         return None
     return Spoken(" ".join(filter(None, (date, clock, zone and zone[0]))), None if zone else place, timed, lasting)
-
-
-def _hour(clock: str) -> int | None:
-    """The hour of a time of day, as far as it begins with one."""
-    found = re.match(r"\d{1,2}", clock)
-    return None if found is None else int(found[0])
 
 
 def names_a_moment(text: str, started: bool) -> bool:
