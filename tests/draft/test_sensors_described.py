@@ -93,6 +93,13 @@ def test_what_it_does_not_say_or_cannot_be_read_is_told_as_settings(tmp_path: Pa
     assert [path for path, why in not_used if "settings, which nothing reads" in why] == ["sensors.yaml"]
 
 
+@pytest.mark.parametrize("axis", ["+", "XY", "north"])
+def test_what_is_no_letter_of_an_axis_names_none(tmp_path: Path, axis: str) -> None:
+    text = f"T02: {{label: eddy probe at the tool, unit: um, axis: '{axis}'}}\n"
+    channels, _, _ = drafted(tmp_path, "sensors.yaml", text)
+    assert channels["T02"].said.axis is None
+
+
 def test_a_displacement_has_its_axis_and_two_entries_of_one_name_say_nothing(tmp_path: Path) -> None:
     text = "daq/T01: {place: bed}\nnc/T01: {place: column}\nT02: {label: eddy probe at the tool, unit: um, axis: +Z}\n"
     channels, _, _ = drafted(tmp_path, "sensors.yaml", text)

@@ -25,6 +25,7 @@ _FILES = (
     "sensor signal channel kanal kanaele messstelle fuhler capteur sensore canale canal snimac cidla cidlo 传感器 信号 "
     "センサ"
 )
+_LETTERS = frozenset("XYZABC")
 _NAME = (
     "name. signal. channel. tag. id. sensor. kanal. column. spalte. signalname. kanalname. canal. capteur. sloupec. "
     "名称 通道 信号"
@@ -126,9 +127,8 @@ def _said(name: str, entry: Any) -> Said | None:
         return None
     told = {str(k): v.strip()[:_LONGEST] for k, v in entry.items() if isinstance(v, str) and v.strip()}
     unit = next((v for k, v in told.items() if _is(_UNIT, k) and is_unit(v)), None)
-    axis = next(
-        (v.strip("+-").upper() for k, v in told.items() if _is(_AXIS, k) and v.strip("+-").upper() in "XYZABC"), None
-    )
+    axes = (v.strip("+-").upper() for k, v in told.items() if _is(_AXIS, k))
+    axis = next((letter for letter in axes if letter in _LETTERS), None)
     # a name within an entry that has its own is a description
     texts = [v for k, v in told.items() if _is(f"{_TEXT} {_NAME}", k) and not _is(_UNIT, k)]
     if not (texts or unit or axis):
