@@ -30,6 +30,9 @@ UNITS = {"T": "K", "T2": "K", "on": "1", "n": "rpm", "v": "mm/min", "p": "kW"}
         ("n ** 2", "um/rpm^2"),
         ("n * n", "um/rpm^2"),
         ("T * v", "um/(K mm/min)"),
+        ("v", "um/(mm/min)"),
+        ("v ** 1.4", "um/((mm/min)^1.4)"),
+        ("v ** 0.99999999", "um/(mm/min)"),  # as a fit has it
         ("T + n", "um"),
     ],
 )

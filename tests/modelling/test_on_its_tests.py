@@ -11,7 +11,7 @@ import pytest
 import thermodata
 from thermodata.modelling import run
 from thermodata.modelling.named import newest_model, of_which_version
-from thermodata.notebook.stale import NoBandWarning
+from thermodata.notebook.stale import NoBandWarning, StaleModelWarning
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.lifecycle import forget
@@ -43,7 +43,7 @@ def test_a_band_that_is_lost_is_warned_of_in_python(stored: Stored, world: Datas
     store, path = stored(world, tmp_path, fits=[spec(*EFFECTS)]), tmp_path / "campaign.yaml"
     path.write_text(path.read_text().replace("role: verification", "role: calibration"))
     assert ingest(store, path).stale == [newest_model(store)]
-    with pytest.warns(NoBandWarning, match="the data changed"):
+    with pytest.warns(NoBandWarning, match="the data changed"), pytest.warns(StaleModelWarning):
         made = thermodata.open(store.path).model().predict("campaign:c")
     assert all(p.half is None for p in made)
 

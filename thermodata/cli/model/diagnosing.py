@@ -63,8 +63,8 @@ def confirm_command(session: Session, model: str, candidates: tuple[str, ...], r
     CANDIDATE is its rank or id, as diagnose printed them, or any effect:channels. MODEL is fitted to all open tests
     without and with it, and both are scored on the locked ones. Every look is counted; asking the same again is none.
 
-    Without a candidate each MODEL is scored on the locked tests as it stands, fitted to its calibration tests: as
-    tests are scored, and about each test's mean. The JSON is a list, a row a model and response.
+    Without a candidate each MODEL is scored on the locked tests as it stands: as tests are scored, and about each
+    test's mean. The JSON is a list, a row a model and response.
     """
     from thermodata.diagnosis.run import confirm_choice
 

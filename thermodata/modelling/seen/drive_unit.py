@@ -11,17 +11,24 @@ Powers = Mapping[str, float]
 
 
 def over_unit(unit: str, *factors: Powers | None) -> str:
-    """'um/K', 'um/rpm^2', 'um/(K mm/min)': a unit over that of a drive, the product of factors. The unit alone where
-    the drive is a pure number, or has no unit (None)."""
+    """'um/K', 'um/rpm^2', 'um/(m/min)', 'um/(K mm/min)': a unit over that of a drive, the product of factors. The
+    unit alone where the drive is a pure number, or has no unit (None)."""
     below = "" if any(f is None for f in factors) else written(times(*(f for f in factors if f is not None)))
     if not below:
         return unit
-    return f"{unit}/({below})" if " " in below else f"{unit}/{below}"
+    return f"{unit}/({below})" if " " in below or "/" in below else f"{unit}/{below}"
 
 
 def written(powers: Powers) -> str:
-    """'K', 'rpm^2', 'K mm/min'; '' of a pure number."""
-    return " ".join(unit if power == 1 else f"{unit}^{power:g}" for unit, power in powers.items())
+    """'K', 'rpm^2', '(m/min)^1.4', 'K mm/min'; '' of a pure number."""
+    return " ".join(_to_the(unit, f"{power:g}") for unit, power in powers.items())
+
+
+def _to_the(unit: str, power: str) -> str:
+    """power: as it is shown, for a fitted one is 1 to a few digits only."""
+    if power == "1":
+        return unit
+    return f"({unit})^{power}" if "/" in unit else f"{unit}^{power}"
 
 
 def times(*factors: Powers) -> Powers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from thermodata.report.text.table import table
+from thermodata.report.text.table import prose, table
 from thermodata.schema.answers.locked_error import LockedError
 from thermodata.schema.words.sentences import counted
 
@@ -33,9 +33,8 @@ def locked_text(found: Sequence[LockedError]) -> str:
     left_out = dict.fromkeys(f"left out: {why}" for one in found for why in one.left_out)
     most = max(one.looks for one in found)
     said = [
-        "locked: of the model as it stands, fitted to its calibration tests; RMSE counts from the first samples of a "
-        "test, as it is scored",
+        "locked: of the model as it stands; RMSE counts from the first samples of a test, as it is scored",
         *left_out,
         f"the locked tests have been opened {counted(most, 'time')} so far",
     ]
-    return f"{table(rows, _COLUMNS)}\n\n" + "\n".join(said)
+    return f"{table(rows, _COLUMNS)}\n\n" + "\n".join(map(prose, said))
