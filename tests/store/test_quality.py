@@ -29,6 +29,14 @@ tests:
   - {id: day3, kind: spindle}
 """
 )
+# one recording, whose beginning is the history of the second test
+IN_TWO = (
+    DAYS[: DAYS.index("tests:")]
+    + """tests:
+  - {id: early, kind: spindle, files: {daq: raw/day.npz}, window: [0 s, 6000 s], history: recording}
+  - {id: late, kind: spindle, files: {daq: raw/day.npz}, window: [6000 s, 17990 s], history: recording}
+"""
+)
 N = 600
 
 
@@ -52,12 +60,7 @@ def flags(store: Store, channel: str) -> list[tuple[str, int]]:
 
 
 def test_what_came_before_a_window_is_told_of_one_test_as_it_is_counted(store: Store, tmp_path: Path) -> None:
-    """One recording in two tests, whose spikes are the history of the second."""
-    tests = """tests:
-  - {id: early, kind: spindle, files: {daq: raw/day.npz}, window: [0 s, 6000 s], history: recording}
-  - {id: late, kind: spindle, files: {daq: raw/day.npz}, window: [6000 s, 17990 s], history: recording}
-"""
-    path = write_campaign(tmp_path / "lab", DAYS[: DAYS.index("tests:")] + tests, logs=False)
+    path = write_campaign(tmp_path / "lab", IN_TWO, logs=False)
     log = day(1)
     for at in (50, 120, 300):
         log["main"]["T1"][at] += 15.0
@@ -69,11 +72,7 @@ def test_what_came_before_a_window_is_told_of_one_test_as_it_is_counted(store: S
 
 
 def test_a_gap_before_a_window_is_one_of_the_test_in_which_it_is(store: Store, tmp_path: Path) -> None:
-    tests = """tests:
-  - {id: early, kind: spindle, files: {daq: raw/day.npz}, window: [0 s, 6000 s], history: recording}
-  - {id: late, kind: spindle, files: {daq: raw/day.npz}, window: [6000 s, 17990 s], history: recording}
-"""
-    path = write_campaign(tmp_path / "lab", DAYS[: DAYS.index("tests:")] + tests, logs=False)
+    path = write_campaign(tmp_path / "lab", IN_TWO, logs=False)
     log = day(1)
     kept = np.r_[0:60, 110:N]
     log["main"] = {name: values[kept] for name, values in log["main"].items()}
