@@ -36,18 +36,25 @@ class _InFiles:
 
 
 def _in_files(one: OneSignal) -> _InFiles:
-    units = Counter((one.of(f) or one.signal).unit for f in one.files)
-    found = _InFiles(units.most_common(1)[0][0], units, Counter(), {}, {}, {}, None)
+    signals = [(f, one.of(f) or one.signal) for f in one.files]
+    units = Counter(own.unit for _, own in signals)
+    usual = units.most_common(1)[0][0]
+    by_path = {str(f.path): f.sample.values.get((own.stream, own.name)) for f, own in signals}
     values = None
-    for f in one.files:
-        own = one.of(f) or one.signal
-        found.by_path[str(f.path)] = f.sample.values.get((own.stream, own.name))
-        values = joined(values, in_unit(found.by_path[str(f.path)], own.unit, found.usual))
-        found.names[own.properties.get("description", "")] += 1
-        found.own[f.path.name] = own
-        found.heads.setdefault(own.properties.get(HEAD, ""), []).append(f.path.name)
-    words_of_no_switch = one.signal.dtype == "str" and None in found.by_path.values()
-    return replace(found, values=None if words_of_no_switch else values)
+    heads: dict[str, list[str]] = {}
+    for f, own in signals:
+        values = joined(values, in_unit(by_path[str(f.path)], own.unit, usual))
+        heads.setdefault(own.properties.get(HEAD, ""), []).append(f.path.name)
+    words_of_no_switch = one.signal.dtype == "str" and None in by_path.values()
+    return _InFiles(
+        usual=usual,
+        units=units,
+        names=Counter(own.properties.get("description", "") for _, own in signals),
+        by_path=by_path,
+        heads=heads,
+        own={f.path.name: own for f, own in signals},
+        values=None if words_of_no_switch else values,
+    )
 
 
 def said_of(one: OneSignal) -> tuple[Guess, str | None]:
