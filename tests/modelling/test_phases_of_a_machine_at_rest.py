@@ -68,6 +68,19 @@ def test_a_meter_is_asked_in_the_test_where_it_moves_least() -> None:
     assert limits["power"] == pytest.approx(5 * 0.02, rel=0.15)
 
 
+def test_a_power_that_is_another_one_in_each_sample_is_work_but_for_its_pauses() -> None:
+    """No speed is logged, and the machine cuts in all of its tests."""
+    cuts = [run(8 + k, np.random.default_rng(k).uniform(3000, 12000, N)) for k in range(2)]
+    for k, test in enumerate(cuts):
+        test.values["power"][:60] = np.random.default_rng(k).normal(0, 0.02, 60)
+        del test.values["speed"]
+    for test in (*with_limits(cuts), cuts[0]):  # one alone, too
+        working = activity(test)
+        assert working is not None
+        assert not working[:60].any()
+        assert working[60:].all()
+
+
 def test_a_channel_without_a_value_tells_nothing() -> None:
     test = run(7, np.full(N, np.nan))
     test = replace(test, values={**test.values, "power": np.zeros(N)})

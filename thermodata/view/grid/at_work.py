@@ -16,6 +16,8 @@ METERED = ("power", "load")  # measured, with noise; speeds and feeds are number
 SHARE = 0.02  # of its largest value
 NOISES = 5.0  # standard deviations of what a meter reads at rest: the largest of a million samples
 FEWEST = 10  # samples that tell a noise
+STRETCH = 60  # samples that are asked how much a meter moves
+QUIET, ALIKE = 0.1, 2.0  # of the stretches rest at least, and the noise of those differs by as much at most
 
 
 def activity_channels(test: TestData) -> list[str]:
@@ -46,7 +48,11 @@ def limits_of(tests: Sequence[TestData]) -> dict[str, float]:
 
 
 def _noise(courses: Sequence[Float1D]) -> float:
-    """Standard deviation of a meter from one sample to the next, in the test where it moves least: in others the
-    machine moves it."""
-    steps = [np.abs(np.diff(x)) for x in courses if len(x) >= FEWEST]
-    return min((1.4826 * float(np.median(s)) / np.sqrt(2.0) for s in steps), default=0.0)
+    """Standard deviation of a meter from one sample to the next, in the stretches in which it moves least, of whichever
+    test: in others the machine moves it."""
+    parts = [p for x in courses for p in np.array_split(x, max(1, len(x) // STRETCH)) if len(p) >= FEWEST]
+    each = np.array([1.4826 * np.median(np.abs(np.diff(p))) / np.sqrt(2.0) for p in parts])
+    if not len(each):
+        return 0.0
+    # one stretch seems quiet by chance; all that are about as quiet tell how much it is
+    return float(np.median(each[each <= ALIKE * np.quantile(each, QUIET, method="lower")]))
