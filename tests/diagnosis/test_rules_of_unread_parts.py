@@ -27,6 +27,7 @@ GUIDE = ChannelInfo("T_guide", "temperature", "degC", at="Axis.Z.guide")
 MOTOR = ChannelInfo("T_motor", "temperature", "degC", at="axis.z.motor")
 MOTOR_S = ChannelInfo("T_motor_s", "temperature", "degC", at="spindle.motor")
 FEED = ChannelInfo("v", "feed", "m/min", at="axis.z")
+FEED_X = ChannelInfo("v_x", "feed", "m/min", at="axis.x")
 OTHER = ChannelInfo("T_nut_x", "temperature", "degC", at="axis.x.nut")
 LOW = ChannelInfo("T_low", "temperature", "degC", at="hall.bottom")
 HIGH = ChannelInfo("T_high", "temperature", "degC", at="hall.top")
@@ -56,6 +57,9 @@ def test_a_guideway_is_the_lesser_part_where_no_sensor_reads_its_screw() -> None
     assert lesser(GUIDE) == {"guideway:T_guide", "lag:T_guide"}
     assert lesser(GUIDE, OTHER) == {"guideway:T_guide", "lag:T_guide"}, "the screw of another axis"
     assert lesser(GUIDE, HOUSE) == set()
+    assert lesser(GUIDE, FEED) == set(), "what moves the axis says what its screw does"
+    assert lesser(GUIDE, FEED_X) == {"guideway:T_guide", "lag:T_guide"}, "of another axis"
+    assert lesser(GUIDE, MOTOR) == {"guideway:T_guide", "lag:T_guide"}, "a motor warms with both"
     assert lesser(GUIDE, has=(Present("feed_screw", frozenset({"T_gone"}), "feed_z"),)) == {
         "guideway:T_guide",
         "lag:T_guide",

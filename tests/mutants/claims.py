@@ -114,6 +114,10 @@ MUTANTS = [
     diagnosis(
         "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
     ),
+    diagnosis(
+        "unread.py", "for c in channels.values() if is_motion(c.quantity))", "for c in ())", "a lesser part beats it"
+    ),
+    diagnosis("unread.py", "part is not None and part.heat in heats for", "part is not None for", "any axis moves it"),
     diagnosis("unread.py", "if all(warms_the_holder", "if False and all(warms_the_holder", "coolant is as sure as air"),
     diagnosis("unread.py", "Part(AIR, HOLDER) in known or", "", "a holder that the model has is named beside coolant"),
     diagnosis("unread.py", "or any(reads(channels, place) for", "or any(False for", "a holder with a sensor is named"),

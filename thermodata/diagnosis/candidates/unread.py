@@ -86,10 +86,15 @@ def unread(
 def is_lesser(
     effect: Effect, names: Collection[str], channels: Mapping[str, Described], other: Collection[str]
 ) -> bool:
-    """Whether it is the lesser part of what rubs, while the greater one may be it as well. other: `unread` of it."""
-    own = {part.name for part in parts_of(effect, names, channels)}
+    """Whether it is the lesser part of what rubs, while the greater one may be it as well, and is no candidate itself:
+    by what moves the axis the greater part has a name of its own, which the lesser must beat. other: `unread` of it."""
+    own = parts_of(effect, names, channels)
     greater = (part_of(place) for place in other)
-    return own == {LESSER} and any(part is not None and part.name == GREATER for part in greater)
+    if {part.name for part in own} != {LESSER} or not any(part and part.name == GREATER for part in greater):
+        return False
+    heats = {part.heat for part in own}
+    moved = (part_of(c.at) for c in channels.values() if is_motion(c.quantity))
+    return not any(part is not None and part.heat in heats for part in moved)
 
 
 def reads(channels: Mapping[str, Described], place: str) -> bool:

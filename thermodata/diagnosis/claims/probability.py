@@ -13,7 +13,8 @@ from thermodata.diagnosis.weigh.scored import Scored
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
 # error where it acts, whether it is the air beside something sharper, whether it is passive, whether another part may
 # be what it stands for, whether the model reads it already, together with others, whether it reads what
-# holds the probes, and whether it is a guideway whose screw may be it as well (docs/method.md#probability)
+# holds the probes, and whether it is a guideway whose screw, by no channel a candidate, may be it as well
+# (docs/method.md#probability)
 PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2, -2.3)
 # and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
 # of what is so probable without them at least
