@@ -397,7 +397,7 @@ MUTANTS = [
         "min(short, key",
         "a claim goes for what is likely",
     ),
-    diagnosis("opened.py", "return max(found, key", "return min(found, key", "the worst twin is taken"),
+    diagnosis("opened.py", "best = max(found, key", "best = min(found, key", "the worst twin is taken"),
     diagnosis(
         "opened.py", "if worst < claims:\n            refused", "if False:\n            refused", "no word of a refusal"
     ),
@@ -411,15 +411,13 @@ MUTANTS = [
         "for j in asked})",
         "a twin that went is told for what was claimed",
     ),
-    diagnosis("opened.py", "<= FORETELLS * _left(own)", "<= _left(own)", "chance tells twins apart"),
-    diagnosis("opened.py", "!= own_channels and may_be(s)", "!= {} and may_be(s)", "an equation is told from another"),
+    diagnosis("opened.py", "and families & _families(t, claim.beside)", "", "another's heat is claimed for it"),
     diagnosis(
         "opened.py",
         "if is_its_name(best.scored, j.scored)), best)",
         "if False), best)",
         "a lag is claimed for its name",
     ),
-    diagnosis("opened.py", "if _key(own) in untried and own.refines is None:", "if False:", "no twin is told apart"),
     diagnosis(
         "unread.py", "return (*_motors(names, channels), *(", "return (*(", "a motor's losses are the cut's alone"
     ),

@@ -8,7 +8,7 @@ from dataclasses import replace
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
-from thermodata.diagnosis.verdict.preference import FORETELLS, is_its_name
+from thermodata.diagnosis.verdict.preference import UNNAMED, is_its_name
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
@@ -45,9 +45,7 @@ def kept_where_they_hold(
         told.update({_key(j): j for j in asked if j.in_place_of is None})
         short = [place for place, j in enumerate(asked) if _falls_short(j, unsound)]
         if not short:
-            if not _told_apart(asked, untried, look, may_be):
-                break
-            continue
+            break
         worst = min([place for place in short if place >= claims] or short, key=lambda place: _standing(asked[place]))
         key = _key(asked[worst])
         if key in untried and asked[worst].refines is None:
@@ -101,56 +99,42 @@ def _standing(j: Judged) -> tuple[bool, float]:
     return not _is_refuted(j), probability(j.scored)
 
 
-def _told_apart(asked: list[Judged], untried: set[int], look: Look, may_be: Callable[[Scored], bool]) -> bool:
-    """Whether a member of those whose twins are untried gives way to one: then the others stand beside another."""
-    for place, own in enumerate(asked):
-        if _key(own) in untried and own.refines is None:
-            untried.discard(_key(own))
-            asked[place] = _likeliest_twin(asked, place, look, may_be)
-            if asked[place] is not own:
-                return True
-    return False
-
-
-def _likeliest_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged:
-    """What the open tests can't tell apart the locked ones may: a twin on other channels that leaves much less of them,
-    and is likelier once they are heard, takes the place of what they bear out too. A lag gives way to its name."""
-    own, names = asked[place], {j.scored.candidate.id for j in asked}
-    own_channels, found = set(own.scored.candidate.channels), [own]
-    for twin in _twins(own, lambda s: set(s.candidate.channels) != own_channels and may_be(s), names):
-        told = _with(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
-        if not _falls_short(told, set()) and _left(told) <= FORETELLS * _left(own):
-            found.append(told)
-    best = max(found, key=lambda j: probability(j.scored))
-    return next((j for j in found if is_its_name(best.scored, j.scored)), best)
-
-
-def _left(j: Judged) -> float:
-    """Of the error of the locked tests, as a share; by the model as it stands, where that says anything."""
-    said = j.scored.looked.saying if j.scored.looked is not None else []
-    return 1.0 - said[-1].fall if said else 1.0
-
-
 def _best_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged | None:
-    """What can't be told apart is one claim, and one member that falls short is no reason against the others."""
+    """What can't be told apart is one claim, and one member that falls short is no reason against the others. A lag
+    gives way to its name."""
     names = {j.scored.candidate.id for j in asked}
     found = []
     for twin in _twins(asked[place], may_be, names):
         told = _with(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
         if not _falls_short(told, set()):
             found.append(told)
-    return max(found, key=_standing, default=None)
+    best = max(found, key=_standing, default=None)
+    return best and next((j for j in found if is_its_name(best.scored, j.scored)), best)
 
 
 def _twins(claim: Judged, may_be: Callable[[Scored], bool], names: set[str]) -> list[Judged]:
-    """names: what is asked already."""
+    """Of the same cause: another's heat is another claim, which the open tests would have to make; the locked ones are
+    few, and by their errors alone it is mostly chance. names: what is asked already."""
     own = claim.scored
     # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
-    kin = (None, own.candidate.kin)
-    alike = [t for t in equivalents(own, claim.beside) if t.candidate.kin in kin and t.candidate.id not in names]
+    kin, families = (None, own.candidate.kin), _families(own, claim.beside)
+    alike = [
+        t
+        for t in equivalents(own, claim.beside)
+        if t.candidate.kin in kin and t.candidate.id not in names and families & _families(t, claim.beside)
+    ]
     # in its place, the same sharper cause stands beside the twin, and other axes say the same
     placed = [replace(t, beaten=own.beaten, also_on=own.also_on) for t in alike]
     return [replace(claim, scored=twin, in_place_of=own.candidate.id) for twin in placed if may_be(twin)][:TWINS_TRIED]
+
+
+def _families(one: Scored, ranked: Sequence[Scored]) -> set[str]:
+    """Of a plain function those that have a name by its channels, and the channels themselves."""
+    own = one.candidate
+    if own.family not in UNNAMED:
+        return {own.family, *own.channels}
+    named = (s.candidate for s in ranked if set(s.candidate.channels) == set(own.channels))
+    return {*(c.family for c in named if c.family not in UNNAMED), *own.channels}
 
 
 def _why(refused: Sequence[Judged], unit: str) -> str:
