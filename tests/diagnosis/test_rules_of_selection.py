@@ -15,7 +15,7 @@ from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict import context as contexts
 from thermodata.diagnosis.verdict import selection as selecting
-from thermodata.diagnosis.verdict.preference import better_twin, gives_way, preferred, what_warms_it
+from thermodata.diagnosis.verdict.preference import better_twin, gives_way, its_name, preferred, what_warms_it
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weigh import beside as besides
 from thermodata.diagnosis.weigh import in_noise_of_best as noises
@@ -449,6 +449,15 @@ def test_a_lag_gives_way_to_a_name_that_is_as_likely_on_its_channel(
     best = scored("load", family=named, channels=(channel,), evidence=evidence, after=after)
     ranking: Any = SimpleNamespace(ranked=(best, own))
     assert gives_way(own, best, ranking) is gives
+    preferred_to_both = scored("screw", family="feed_x", channels=("T_nut",), evidence=200.0)
+    assert (its_name(own, (preferred_to_both, best, own)) is best) is gives
+
+
+def test_a_member_is_told_by_its_name_where_that_is_sound(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = Worlds(monkeypatch, lambda n, known: 1.0 if known else {"lag": 100.0, "load": 97.0}[n])
+    monkeypatch.setattr(selecting, "its_name", lambda own, ranked: next(s for s in ranked if name(s) == "load"))
+    assert members(world.select(["lag", "load"])) == ["load"]
+    assert members(world.select(["lag", "load"], lambda s: name(s) == "lag")) == ["lag"]
 
 
 @pytest.mark.parametrize(

@@ -411,6 +411,12 @@ MUTANTS = [
         "for j in asked})",
         "a twin that went is told for what was claimed",
     ),
+    diagnosis(
+        "selection.py",
+        "for one in (better_twin, what_warms_it, its_name):",
+        "for one in (better_twin, what_warms_it):",
+        "a lag is claimed where another is preferred to its name",
+    ),
     diagnosis("opened.py", "and families & _families(t, claim.beside)", "", "another's heat is claimed for it"),
     diagnosis(
         "opened.py",

@@ -126,6 +126,11 @@ def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     return better or is_its_name(own, best) or _at_once(own, best) or _is_cause_of_mode(own, best)
 
 
+def its_name(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
+    """The likeliest effect with a name that a lag stands for, whatever else is preferred to both."""
+    return next((s for s in ranked if len(s.shape) and is_its_name(own, s)), None)
+
+
 def is_its_name(own: Scored, best: Scored) -> bool:
     """Whether a lag stands for an effect with a name that is as likely on the same channels, or nearly so: the same
     equation on two grids of time constants differs by as much."""
