@@ -135,6 +135,17 @@ def test_every_page_wide_narrow_light_and_dark(read: Served) -> None:
     assert looks(read.lab) == before
 
 
+def test_long_names_leave_the_error_and_the_residual_in_sight(read: Served) -> None:
+    for width in (1400, 1100):
+        read.page.look(width, 900)
+        read.go("/")
+        read.page.js(
+            "document.querySelectorAll('td.name a').forEach(a => { a.textContent = 'warm_up_'.repeat(6); });"
+            "document.querySelectorAll('[data-th=conditions]').forEach(c => { c.textContent = 'speed 9000, '.repeat(6); })"
+        )
+        assert read.page.js("(t => t.scrollWidth <= t.clientWidth)(document.querySelector('#tests > .scroll'))")
+
+
 # pairs of texts or charts that lie over each other, and what stands out of the paper; none is good
 OVERLAPS = """(() => {
   const found = [], boxes = [];
