@@ -284,6 +284,12 @@ def test_a_phone_has_numbers_at_the_line_ends_and_nothing_beside_the_page(tab: P
     assert tab.js("document.documentElement.scrollWidth <= 390")
 
 
+def test_long_names_differ_where_they_are_cut(tab: Page) -> None:
+    ends = tab.js("['front', 'rear'].map(end => ThermoChart.short('temperature_of_the_bearing_' + end, 18))")
+    assert ends == ["temperatu…ng_front", "temperatu…ing_rear"]
+    assert tab.js("ThermoChart.short('T_front', 18)") == "T_front"
+
+
 def test_what_left_the_page_is_let_go_and_what_came_is_drawn(tab: Page) -> None:
     tab.js("document.querySelector('[data-chart=two]').remove(); ThermoChart.scan(document)")
     tab.js(f"{ONE}.zoom(2, 6)")

@@ -8,7 +8,11 @@
     if (unit in UNITS) return UNITS[unit];
     return unit.replace(/\bum(?=\d|\b)/g, "µm").replace(/\bdegC\b/g, "°C").replace(/([a-zA-Z])(\^|\*\*)?2\b/g, "$1²");
   };
-  T.short = function (text, most) { return text.length > most ? text.slice(0, most - 1) + "…" : text; };
+  // the middle goes: names of channels and tests often differ in their end only
+  T.short = function (text, most) {
+    const end = Math.floor((most - 1) / 2);
+    return text.length > most ? text.slice(0, most - 1 - end) + "…" + text.slice(text.length - end) : text;
+  };
 
   // four significant digits, a true minus
   T.number = function (v, digits) {
