@@ -284,6 +284,13 @@ def test_a_phone_has_numbers_at_the_line_ends_and_nothing_beside_the_page(tab: P
     assert tab.js("document.documentElement.scrollWidth <= 390")
 
 
+def test_a_strip_says_what_it_goes_over_in_its_unit(tab: Page) -> None:
+    head = "document.querySelector('[data-chart=one] .tc-strip .tc-head').innerText.replace(/\\s+/g, ' ')"
+    assert tab.wait(f"{head} === 'speed [rpm] 0 … 9000'")
+    tab.js(f"{ONE}.zoom(6, 8)")
+    assert tab.wait(f"{head} === 'speed [rpm] 9000'"), "of what is in sight"
+
+
 def test_long_names_differ_where_they_are_cut(tab: Page) -> None:
     ends = tab.js("['front', 'rear'].map(end => ThermoChart.short('temperature_of_the_bearing_' + end, 18))")
     assert ends == ["temperatu…ng_front", "temperatu…ing_rear"]

@@ -71,7 +71,9 @@
     _panel(p, last) {
       const part = T.make("div", "tc-panel" + (p.strip ? " tc-strip" : ""));
       const head = T.make("div", "tc-head"), unit = T.unit(p.unit);
-      head.append(T.make("b", "", p.title + (unit && !p.strip ? " [" + unit + "]" : "")));
+      head.append(T.make("b", "", p.title + (unit ? " [" + unit + "]" : "")));
+      // a strip has no ticks: its head says what it goes over; a state without a unit is on or off
+      if (p.strip && unit) { p.reach = T.make("span", "tc-reach", ""); head.append(p.reach); }
       p.values = p.series.map((s, i) => {
         const key = T.make("button", "tc-key"); key.type = "button";
         key.title = s.note || "Show or hide " + s.name; key.setAttribute("aria-pressed", "true");
@@ -184,6 +186,7 @@
 
     // what is in sight fills the height, with a margin; levels that are named stay in sight where they are near
     _span(p, low, high) {
+      p.seen = [low, high];
       if (low === null || low === undefined) return [0, 1];
       if (p.strip) { low = Math.min(low, 0); high = Math.max(high, 0); }
       if (p.zero) { low = Math.min(low, 0); high = Math.max(high, 0); }
@@ -199,6 +202,7 @@
     _over(p, u) {
       const r = uPlot.pxRatio, ctx = u.ctx;
       if (p.rows) T.lanes(u, p.rows, this.narrow);
+      if (p.reach) p.reach.textContent = p.seen ? T.reach(p.seen[0], p.seen[1]) : "";
       if (p.zero) T.limits(u, [{y: 0, label: "", colour: "muted"}]);
       T.limits(u, p.limits); T.marks(u, p.marks); T.spanlabels(u, this.spec.spans, p.number);
       T.endlabels(u, this._ends(p, u));
@@ -440,7 +444,7 @@
         old.forEach(p => p.plot.destroy()); this._anew(); return;
       }
       this.panels.forEach((p, i) => {
-        ["plot", "holder", "values", "note", "rowvalue", "last"].forEach(k => { p[k] = old[i][k]; });
+        ["plot", "holder", "values", "note", "reach", "rowvalue", "last"].forEach(k => { p[k] = old[i][k]; });
         Object.assign(old[i], p); this.panels[i] = old[i];
         old[i].plot.setData(p.data, false);
         old[i].plot.setScale("x", {min: this.lo, max: this.hi});

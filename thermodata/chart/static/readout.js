@@ -24,6 +24,12 @@
     return text.replace("-", "−");
   };
   T.tick = v => v === null ? null : (Math.abs(v) >= 1e5 || (v && Math.abs(v) < 1e-4) ? v.toExponential() : String(+v.toPrecision(6))).replace("-", "−");
+  // '0 … 9000'; one number where nothing moves
+  T.reach = function (low, high) {
+    if (low === null || low === undefined) return "";
+    const [a, b] = [low, high].map(v => T.tick(+v.toPrecision(3)));
+    return a === b ? a : a + " … " + b;
+  };
   T.decades = function (low, high) {
     const made = [], first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high)), step = Math.max(1, Math.ceil((last - first) / 8));
     for (let e = first; e <= last; e += step) made.push(Math.pow(10, e));

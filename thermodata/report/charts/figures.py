@@ -130,13 +130,10 @@ def _drivers(drivers: Sequence[Curve], size: int) -> Panel:
 def _lane(lane: Curve, hours: Float1D, size: int) -> Strip:
     """One operating state: only where it changes, for most of them rest for hours."""
     values = block_mean(lane.values, size)
-    finite = values[np.isfinite(values)]
-    top = float(np.max(np.abs(finite))) if len(finite) else 1.0
-    unit = "" if lane.unit in ("1", "") else f" {lane.unit}"
     same = np.zeros(len(values), bool)
     same[1:-1] = (values[1:-1] == values[:-2]) | (np.isnan(values[1:-1]) & np.isnan(values[:-2]))
-    title = f"{lane.name} (at most {number(top)}{unit})" if unit else lane.name
-    return Strip(Series(lane.name, lane.unit, values[~same], "lane", x=hours[~same], style="area", width=1.0), title)
+    course = Series(lane.name, lane.unit, values[~same], "lane", x=hours[~same], style="area", width=1.0)
+    return Strip(course, lane.name)
 
 
 def _weak_spans(weak: Sequence[tuple[int, WeakSpot]], unit: str) -> list[Span]:
