@@ -141,9 +141,16 @@ def test_long_names_leave_the_error_and_the_residual_in_sight(read: Served) -> N
         read.go("/")
         read.page.js(
             "document.querySelectorAll('td.name a').forEach(a => { a.textContent = 'warm_up_'.repeat(6); });"
-            "document.querySelectorAll('[data-th=conditions]').forEach(c => { c.textContent = 'speed 9000, '.repeat(6); })"
+            "document.querySelectorAll('[data-th=conditions]').forEach(c => { c.textContent = 'speed 9, '.repeat(6); })"
         )
         assert read.page.js("(t => t.scrollWidth <= t.clientWidth)(document.querySelector('#tests > .scroll'))")
+
+
+def test_the_keys_of_a_chart_are_as_low_as_their_text(read: Served) -> None:
+    """Rows of many keys stood two lines apart: the page's buttons are higher."""
+    read.go("/test?campaign=small&test=heat1")
+    read.page.js("ThermoChart.of(document.getElementById('plot'))")
+    assert read.page.js("document.querySelector('.tc-key').getBoundingClientRect().height") < 20
 
 
 # pairs of texts or charts that lie over each other, and what stands out of the paper; none is good
