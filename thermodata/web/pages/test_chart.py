@@ -48,7 +48,7 @@ def test_chart(
         panels,
         spans=_spans(about),
         rows=_rows(about),
-        rows_title="flags",
+        rows_title=_flags_title(about),
     )
 
 
@@ -171,6 +171,12 @@ def _spans(about: About) -> list[Span]:
             for (source, a, b), f in gaps.items()
         ),
     ]
+
+
+def _flags_title(about: About) -> str:
+    """Which flags the rows are of: a colour alone says nothing on paper, nor to everybody."""
+    kinds = dict.fromkeys(f.flag.replace("_", " ") for f in about.flagged)
+    return f"flags: {', '.join(kinds)}" if kinds else "flags"
 
 
 def _rows(about: About) -> list[Row]:
