@@ -6,6 +6,7 @@ import html
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -85,6 +86,38 @@ def test_a_test_draws_its_channels_and_its_model(reader: Client) -> None:
     assert "dZ, residual" in titles
     assert "temperature, elsewhere" in titles
     assert "spindle_speed" in titles
+
+
+def chart_of(text: str) -> dict[str, Any]:
+    found = re.search(r'<script type="application/json" id="chart">(.*?)</script>', text, re.S)
+    assert found is not None
+    return dict(json.loads(found[1]))
+
+
+def test_a_test_says_the_error_of_its_model_as_the_list_does(reader: Client) -> None:
+    listed = re.search(r'heat1</a>.*?data-unit="µm">([\d.]+)<', reader.get("/").text, re.S)
+    assert listed is not None
+    assert f"error of baseline 1 <b>{listed[1]} µm</b>" in reader.get("/test?campaign=small&test=heat1").text
+    assert "error of" not in reader.get("/test?campaign=small&test=day2").text, "of a locked test none is shown"
+
+
+def test_several_channels_are_ticked_and_drawn(reader: Client) -> None:
+    url = "/test?campaign=small&test=heat1&model=none"
+    names = [p["title"] for p in chart_of(reader.get(url).text)["panels"]]
+    text = reader.get(f"{url}&show=&show=dZ&show=spindle_speed").text
+    assert len(names) > 2
+    assert [p["title"] for p in chart_of(text)["panels"]] == ["dZ", "spindle_speed"]
+    assert re.findall(r'name="show" value="(\w+)" checked', text) == ["dZ", "spindle_speed"]
+    assert "the 2 ticked below" in text
+    assert len(chart_of(reader.get(f"{url}&show=all&show=dZ").text)["panels"]) >= len(names), "all are asked for"
+
+
+def test_the_rows_of_flags_say_which_flags_they_are_of(reader: Client) -> None:
+    titles = {
+        chart_of(reader.get(f"/test?campaign=small&test={t}").text)["rows_title"] for t in ("heat1", "day1", "day2")
+    }
+    assert any(title.startswith("flags: ") for title in titles), titles
+    assert not any("_" in title for title in titles)
 
 
 def test_the_model_of_a_locked_test_is_not_shown(reader: Client) -> None:

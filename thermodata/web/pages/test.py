@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -33,7 +34,7 @@ _MOST_ADDRESS = 8_000  # [letters] of names
 
 def show(request: Request) -> Response:
     """GET /test: campaign, test, model, from, to [s], show (channels, or 'all'), flagged."""
-    desk, given = desk_of(request), request.query_params
+    desk, given = desk_of(request), _asked(request)
     store = desk.store()
     campaign, test = _named(given)
     known = _known(store, campaign, test)
@@ -56,6 +57,9 @@ def show(request: Request) -> Response:
         channels=channels,
         drawn=_drawn(chart, moving) or given.get("show", ""),
         chosen={c.name for c in chosen},
+        shown=given.get("show", ""),
+        named=set(given.get("show", "").split(",")) if _by_name(given) else set(),
+        errors=_errors(store, campaign, predicted),
         models=models,
         model=model,
         predicted=predicted,
@@ -72,7 +76,7 @@ def show(request: Request) -> Response:
 
 def data(request: Request) -> Response:
     """GET /test/data: the chart of a window in as many points as a screen has."""
-    store, given = desk_of(request).store(), request.query_params
+    store, given = desk_of(request).store(), _asked(request)
     known = _known(store, *_named(given))
     _, chosen = _channels(known, given)
     model = _model(store, known.models, given)
@@ -106,6 +110,20 @@ def stretch(request: Request) -> Response:
         ],
         units=response_units(store, [p.response for p in found], [campaign]),
     )
+
+
+def _asked(request: Request) -> dict[str, str]:
+    """The address; of channels that are ticked one by one, 'show' holds all, parted by commas."""
+    given = request.query_params
+    several = [name for name in given.getlist("show") if name]
+    return {**given, "show": "all" if "all" in several else ",".join(dict.fromkeys(several))}
+
+
+def _errors(store: Store, campaign: str, predicted: list[Prediction]) -> list[tuple[str, float, str]]:
+    """(response, error over the whole test, its unit), of the model that is shown."""
+    units = response_units(store, [p.response for p in predicted], [campaign])
+    found = [(p.response, range_figures(p, -math.inf, math.inf).rmse, units.get(p.response, "um")) for p in predicted]
+    return [(response, error, unit) for response, error, unit in found if error is not None]
 
 
 def _named(given: Mapping[str, str]) -> tuple[str, str]:
