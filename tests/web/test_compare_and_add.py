@@ -51,6 +51,7 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     store = Store(lab / "thermodata.store")
     first = model_rows(store)[0]
     offer = writer.get(f"/add?model={first.model}&candidate=1").text
+    assert re.search(r"<title>Add \w+:\w+ · thermodata</title>", offer), "a tab is found by what it adds, not by a rank"
     assert "Add it</button>" in offer
     assert "fitted to all its open tests" in offer
     answer = writer.post("/task/add", {"model": first.model, "candidate": "1"})

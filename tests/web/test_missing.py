@@ -234,6 +234,8 @@ def test_without_a_model_the_page_says_how_to_get_one(lab: Path) -> None:
         for table in ("model", "finding", "prediction", "score_row", "fit"):
             con.execute(f"delete from {table}")
     assert "No model was fitted yet" in client_of(lab)[0].get("/missing").text
+    for page in ("/missing", "/compare", "/report"):
+        assert 'href="/start#model">Fit a first model' in client_of(lab)[0].get(page).text
 
 
 def test_abstaining_is_told_as_clearly_as_claiming(lab: Path) -> None:

@@ -55,8 +55,9 @@ def test_a_search_that_finds_nothing_says_what_to_do(reader: Client) -> None:
     assert 'href="/"' in text
 
 
-def test_a_folder_without_a_store_says_what_to_do(tmp_path: Path) -> None:
-    text = client_of(tmp_path)[0].get("/").text
+@pytest.mark.parametrize("url", ["/", "/compare", "/missing", "/sql", "/report", "/test?campaign=a&test=b"])
+def test_a_folder_without_a_store_says_what_to_do(tmp_path: Path, url: str) -> None:
+    text = client_of(tmp_path)[0].get(url).text
     assert "There is no store yet" in text
     assert 'href="/start"' in text
 

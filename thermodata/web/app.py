@@ -17,8 +17,10 @@ from thermodata.web import assets
 from thermodata.web.desk import Desk
 from thermodata.web.guard import Guard
 from thermodata.web.later import later
-from thermodata.web.render import page
+from thermodata.web.render import desk_of, page
 from thermodata.web.work import Work
+
+_OF_A_STORE = ("/", "/test", "/compare", "/add", "/sql", "/report", "/missing", "/trace")  # pages, whole
 
 
 def application(desk: Desk) -> Starlette:
@@ -67,6 +69,9 @@ def application(desk: Desk) -> Starlette:
 def _refused(request: Request, error: Exception) -> Response:
     """What a terminal would say after 'error:', as a page."""
     assert isinstance(error, ThermodataError)
+    if not desk_of(request).has_store and request.url.path in _OF_A_STORE:
+        # what is asked before there is anything to show leads on to it: the user may have no terminal
+        return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
     status = 503 if isinstance(error, StoreError) else 400
     return page(request, "refused.html.j2", title="This can't be done", command="", status=status, error=error)
 

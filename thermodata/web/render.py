@@ -19,7 +19,7 @@ from thermodata.version import __version__
 from thermodata.web.assets import SCRIPTS, STYLES
 from thermodata.web.desk import Desk
 
-# (path, title, whether it needs a store), in the order of the work
+# (path, title), in the order of the work
 PAGES = (
     ("/start", "Start"),
     ("/", "Tests"),

@@ -35,7 +35,7 @@ def show(request: Request) -> Response:
     return page(
         request,
         "adding.html.j2",
-        title=f"Add {name}",
+        title=f"Add {identity}",
         section="/missing",
         command=command(desk.store_path, "add", model.model, name),
         model=model,

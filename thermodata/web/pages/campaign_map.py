@@ -24,8 +24,6 @@ PER_PAGE = 50
 def show(request: Request) -> Response:
     """GET /: find, campaign, role, kind, sort, model, page."""
     desk, given = desk_of(request), request.query_params
-    if not desk.has_store:
-        return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
     store = desk.store()
     models = model_rows(store)
     chosen = model_in(store, models, given.get("model"))
