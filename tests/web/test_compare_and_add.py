@@ -76,7 +76,7 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
         "heat2": [False, False],
         "day1": [False, True],
     }
-    assert re.search(r"verification [\d.]+ → [\d.]+ \(in-sample\) ", text)
+    assert re.search(r"verification [\d.]+ → [\d.]+ µm \(in-sample\) ", text)
     assert f"in-sample: {IN_SAMPLE}" in html.unescape(text)
     # and so say the list of tests and the page of the test
     newest = model_rows(store)[0].model

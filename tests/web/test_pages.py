@@ -12,6 +12,7 @@ import pytest
 
 from thermodata.store import Store
 from thermodata.web.pages.strip import strip_svg
+from thermodata.web.render import ends
 
 from .client import Client
 from .conftest import client_of
@@ -187,3 +188,17 @@ def test_a_page_that_is_loaded_with_a_window_keeps_the_strips_of_the_whole_test(
 def test_a_table_of_errors_says_from_where_they_count(reader: Client, page: str) -> None:
     told = "Level: the error of a calibration test is about a level fitted to it"
     assert reader.get(page).text.count(told) == 1
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "told"),
+    [
+        (-0.6931, 0.0235, "(−0.69 … +0.02)"),
+        (-27.44, -19.21, "(−27.4 … −19.2)"),
+        (-163.4, -49.2, "(−163 … −49)"),
+        (0.00123, 0.00187, "(+0.00123 … +0.00187)"),
+        (1.5, 1.5, "(+1.50 … +1.50)"),
+    ],
+)
+def test_an_interval_has_as_many_decimals_as_its_width(low: float, high: float, told: str) -> None:
+    assert ends(low, high) == told

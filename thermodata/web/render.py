@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
@@ -44,6 +45,7 @@ def environment() -> jinja2.Environment:
         number=lambda value, digits=3: typeset(number(value, digits)),
         span=lambda result, name: typeset(span(result, name)),
         signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
+        ends=ends,
         duration=duration,
         typeset=typeset,
         probability=probability,
@@ -59,6 +61,12 @@ def environment() -> jinja2.Environment:
 def desk_of(request: Request) -> Desk:
     desk: Desk = request.app.state.desk
     return desk
+
+
+def ends(low: float, high: float) -> str:
+    """'(−0.69 … +0.02)': both ends of an interval in as many decimals as two digits of its width have."""
+    digits = max(0, 1 - math.floor(math.log10(high - low))) if high > low else 2
+    return typeset(f"({low:+.{digits}f} … {high:+.{digits}f})")
 
 
 def link(path: str, /, **state: Any) -> str:
