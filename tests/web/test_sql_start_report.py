@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 from pathlib import Path
@@ -23,6 +24,15 @@ def test_a_query_gives_rows_a_picture_and_files(reader: Client) -> None:
     assert answer.header("content-disposition") == 'attachment; filename="thermodata.csv"'
     assert len(answer.text.splitlines()) == 361
     assert reader.get(f"/sql/parquet?q={query}").body[:4] == b"PAR1"
+
+
+def test_rows_have_no_zeros_that_say_nothing_and_a_caret_stands_below_its_word(reader: Client) -> None:
+    text = reader.get(
+        "/sql?q=" + quote("select 2.0::double as a, 0.1::double + 0.2::double as b, 24::double as c")
+    ).text
+    assert re.findall(r'<td class="n">(.*?)</td>', text) == ["2", "0.3", "24"]
+    wrong = html.unescape(reader.get("/sql?q=selec+x").text)
+    assert re.search(r"<pre>[^<]*LINE 1: selec x\n +\^", wrong), "in letters of one width"
 
 
 def test_what_is_refused_is_said_beside_the_query(reader: Client, tmp_path: Path) -> None:

@@ -45,6 +45,7 @@ def environment() -> jinja2.Environment:
         number=lambda value, digits=3: typeset(number(value, digits)),
         span=lambda result, name: typeset(span(result, name)),
         signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
+        plain_number=plain_number,
         ends=ends,
         duration=duration,
         typeset=typeset,
@@ -61,6 +62,13 @@ def environment() -> jinja2.Environment:
 def desk_of(request: Request) -> Desk:
     desk: Desk = request.app.state.desk
     return desk
+
+
+def plain_number(value: float, digits: int = 3) -> str:
+    """A number without zeros that say nothing, for counts, shares and limits: '2', '0.4', '0.005'; '–' for none."""
+    text = number(value, digits)
+    whole, point, rest = text.partition(".")
+    return typeset(whole + (point + rest).rstrip("0").rstrip(".") if point and "e" not in rest else text)
 
 
 def ends(low: float, high: float) -> str:
