@@ -82,7 +82,7 @@ def test_each_look_at_a_locked_test_is_told_with_what_it_was_for(lab: Path) -> N
     model = store.connect().execute("select model from model").fetchone()[0]
     campaign, test = store.connect().execute("select campaign, test from test limit 1").fetchone()
     client = client_of(lab, write=True)[0]
-    for k, number in enumerate(("1 time", "2 times")):
+    for k, number in enumerate(("once", "2 times")):
         count_locked_look(store, "0123456789ab" if k else model, [(campaign, test)], f"confirming lag:T_{k}, by choice")
         assert f"{test} was opened {number} (" in client.get("/missing").text
     assert (
@@ -294,3 +294,11 @@ def test_pictures_without_a_script() -> None:
     assert 'width="50.00"' in pair(4.0, 2.0, 8.0)
     assert isinstance(among([0.0, 1.0], 5.0), Markup)
     assert "NaN" not in among([-3.0, -1.0], -2.0)
+
+
+def test_counts_shares_and_limits_have_no_zeros_that_say_nothing(reader: Client) -> None:
+    cells = re.findall(r'<td class="n(?: muted)?">(.*?)</td>', reader.get("/missing").text)
+    told = [n for cell in cells if "µm" not in cell and "→" not in cell for n in re.findall(r"\d+\.\d+", cell)]
+    assert told
+    assert not [n for n in told if n.endswith("0")]
+    assert "it may be larger than the residual" in reader.get("/missing").text
