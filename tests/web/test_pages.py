@@ -12,7 +12,7 @@ import pytest
 
 from thermodata.store import Store
 from thermodata.web.pages.strip import strip_svg
-from thermodata.web.render import ends
+from thermodata.web.render import ends, environment
 
 from .client import Client
 from .conftest import client_of
@@ -147,6 +147,13 @@ def test_a_point_leads_back_to_the_row_of_its_file(reader: Client) -> None:
     text = reader.get("/trace?campaign=small&test=heat1&channel=dZ&at=3600").text
     assert "raw/heat1.csv" in text
     assert "<dt>row</dt><dd>61</dd>" in text
+    assert "3600 s (60 min) from the start ·" in text
+    assert environment().filters["moment"]("2026-03-11T07:00:00.000000000Z") == "2026-03-11 07:00:00 UTC"
+    assert re.search(r"<dt>value there</dt><dd>-?[\d.]+ um</dd>", text), "as the file has it"
+    assert "<dt>unit</dt><dd>µm</dd>" in text
+    (around,) = re.findall(r'href="(/test[^"]*show=dZ[^"]*)"', text)
+    assert "from=1800" in around
+    assert reader.get(html.unescape(around)).status == 200
 
 
 def test_a_strip_tints_by_size_and_sign() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
@@ -47,6 +48,7 @@ def environment() -> jinja2.Environment:
         signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
         plain_number=plain_number,
         ends=ends,
+        moment=lambda iso: re.sub(r"\.?0*Z$", "", str(iso)).replace("T", " ") + " UTC",
         duration=duration,
         typeset=typeset,
         probability=probability,
