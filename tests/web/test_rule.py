@@ -49,6 +49,12 @@ def test_a_campaign_whose_file_is_elsewhere_is_said(lab: Path, writer: Client) -
     answer = writer.post("/rule/preview", form)
     assert answer.status == 400
     assert "is not here" in answer.text
+    assert "<nav" in answer.text
+    part = writer.post("/rule/preview", form, [("hx-request", "true")])
+    assert part.status == 400
+    assert "is not here" in part.text
+    assert "<html" not in part.text, "a page would stand within the page"
+    assert "<nav" not in part.text
     # one that a link leads out to is as good as none
     outside = lab.parent / "outside.yaml"
     outside.write_text((lab / "campaign.yaml").read_text().replace("id: small", "id: nobody", 1))

@@ -73,7 +73,9 @@ def _refused(request: Request, error: Exception) -> Response:
         # what is asked before there is anything to show leads on to it: the user may have no terminal
         return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
     status = 503 if isinstance(error, StoreError) else 400
-    return page(request, "refused.html.j2", title="This can't be done", command="", status=status, error=error)
+    # within a page stands what is refused alone, or a page would stand in the page
+    template = "refused_part.html.j2" if request.headers.get("hx-request") else "refused.html.j2"
+    return page(request, template, title="This can't be done", command="", status=status, error=error)
 
 
 def _no_page(request: Request, error: Exception) -> Response:
