@@ -321,8 +321,13 @@ def test_a_dragged_stretch_is_told(read: Served) -> None:
         "(() => { const r = document.querySelector('#plot .u-over').getBoundingClientRect(); "
         "return [r.left, r.top + 20, r.width]; })()"
     )
+    read.page.js(
+        "new MutationObserver(() => { window.said ||= document.getElementById('range').textContent; })"
+        ".observe(document.getElementById('range'), {childList: true})"
+    )
     read.page.drag(x + 0.2 * width, x + 0.4 * width, y)
     read.page.wait("document.querySelector('#stretch')")
+    assert read.page.js("window.said") == "Reading the stretch …", "while it is worked out, which may take seconds"
     told = read.page.js("document.querySelector('#stretch').textContent")
     assert "samples that count" in told
     assert "window: [" in told

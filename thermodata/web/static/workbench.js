@@ -73,8 +73,10 @@
     // by keyboard: the stretch between the two cursors, where both stand
     if (on && chart.a !== null && chart.b !== null) stretch(Math.min(chart.a, chart.b), Math.max(chart.a, chart.b));
   });
-  const stretch = (from, to) =>
-    htmx.ajax("GET", `${plot.dataset.range}&from=${(from * HOUR).toFixed(1)}&to=${(to * HOUR).toFixed(1)}`, "#range");
+  const stretch = (from, to) => {
+    document.getElementById("range").textContent = "Reading the stretch …";   // the first one loads what it needs
+    return htmx.ajax("GET", `${plot.dataset.range}&from=${(from * HOUR).toFixed(1)}&to=${(to * HOUR).toFixed(1)}`, "#range");
+  };
   plot.addEventListener("tc:range", (event) => { stretch(event.detail.from, event.detail.to); });
 
   // from a point back to its file
