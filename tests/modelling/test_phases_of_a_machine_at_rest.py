@@ -85,3 +85,26 @@ def test_a_channel_without_a_value_tells_nothing() -> None:
     test = run(7, np.full(N, np.nan))
     test = replace(test, values={**test.values, "power": np.zeros(N)})
     assert limits_of([test]) == {}
+
+
+@pytest.mark.parametrize("standby", [0.0, 0.3, 0.8])
+def test_what_a_machine_takes_in_standby_is_no_work(standby: float) -> None:
+    """Whether or not a speed is logged beside its power."""
+    tests = [run(20, np.zeros(N)), run(21, turning())]
+    for test in tests:
+        test.values["power"][:] += standby
+        del test.values["speed"]
+    idle, working = with_limits(tests)
+    assert activity(idle) is None
+    assert set(phases(working, "dZ")) == {"heating", "steady", "cooling"}
+    assert phases(working, "dZ")["cooling"][300:].all()
+
+
+def test_the_least_work_of_tests_that_never_rest_is_no_standby() -> None:
+    tests = [run(22, np.full(N, 4000.0)), run(23, np.full(N, 12000.0))]
+    for test in tests:
+        del test.values["speed"]
+    for test in with_limits(tests):
+        working = activity(test)
+        assert working is not None
+        assert working.all()

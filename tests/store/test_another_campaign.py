@@ -276,6 +276,24 @@ def test_the_log_of_a_hall_lets_no_other_campaign_through(halled: Store, tmp_pat
     assert held(halled) == before
 
 
+ONE = HALL.replace("  - {id: two, kind: spindle, role: verification, phases: {heating: [0 s, 600 s]}}\n", "")
+
+
+def test_the_log_of_a_hall_lets_no_other_campaign_of_one_test_through(store: Store, tmp_path: Path) -> None:
+    """Each of which has no other test that would show whose log it is."""
+    path = write_campaign(tmp_path / "lab", ONE)
+    write_log(path.parent / "raw/hall.npz", hall())
+    ingest(store, path)
+    campaign, before = winter(tmp_path / "winter", days=60, text=ONE), held(store)
+    write_log(campaign.parent / "raw/hall.npz", hall())
+    with pytest.raises(UsageError, match="the test one with other logs, of other days"):
+        ingest(store, campaign)
+    assert held(store) == before
+    moved = shutil.copytree(tmp_path / "lab", tmp_path / "archive") / "campaign.yaml"
+    write_log(moved.parent / "raw/one_a.npz", daq(seed=60))  # exported anew
+    assert ingest(store, moved).tests == 1
+
+
 def test_a_log_that_was_left_from_the_template_lets_no_other_campaign_through(
     filled: Store, campaign: Path, tmp_path: Path
 ) -> None:

@@ -199,6 +199,39 @@ def test_rows_in_units_that_convert_are_given_in_the_first_of_them(tmp_path: Pat
     assert any("'T' is given in degF, also where its rows say degC" in n for n in data.recording.notes)
 
 
+@pytest.mark.parametrize("header", ["timestamp,topic,payload", "Time,Tag,Value"])
+def test_values_with_their_unit_behind_them_are_numbers_in_it(tmp_path: Path, header: str) -> None:
+    rows = [
+        f"{stamp(5 * k)},{tag},{cell}"
+        for k in range(N)
+        for tag, cell in (
+            ("mc/T", f"{20 + k / 8:.3f} °C"),
+            ("mc/n", '"1 234,5 rpm"'),
+            ("mc/dZ", f"{k / 8} µm" if k < 20 else f"{k / 8000} mm"),
+            ("mc/dX", f"{k / 8}"),
+            ("mc/coolant", "ON" if k % 10 < 5 else "OFF"),
+            ("mc/block", f"N{k} G1" if k % 3 else "10 mm"),
+        )
+    ]
+    data = read(tmp_path, header, [*rows, f"{stamp(5 * N)},mc/T,7 bar"])
+    own = {s.name: (s.unit, s.dtype) for s in data.recording.signals}
+    numbers = {"mc/T": "°C", "mc/n": "rpm", "mc/dZ": "µm", "mc/dX": None}
+    words = dict.fromkeys(("mc/coolant", "mc/block"), (None, "str"))
+    assert own == {name: (unit, "float64") for name, unit in numbers.items()} | words
+    found = values(data)
+    np.testing.assert_allclose(found["mc/T"][:N], [20 + k / 8 for k in range(N)])
+    np.testing.assert_allclose(found["mc/dZ"][:N], [k / 8 for k in range(N)], rtol=1e-12)
+    assert set(found["mc/n"]) == {1234.5}
+    assert [loss.reason for loss in data.losses] == ["'mc/T': a value in 'bar', which does not convert to °C: '7'"]
+    assert any("'mc/T' holds numbers with their unit ('20.000 °C')" in n for n in data.recording.notes)
+
+
+def test_values_whose_units_do_not_convert_stay_words(tmp_path: Path) -> None:
+    rows = [f"{stamp(5 * k)},{t},{k} {'bar' if t == 'p' and k % 2 else 'rpm'}" for k in range(N) for t in ("p", "n")]
+    own = {s.name: (s.unit, s.dtype) for s in read(tmp_path, "Time,Tag,Value", rows).recording.signals}
+    assert own == {"p": (None, "str"), "n": ("rpm", "float64")}
+
+
 @pytest.mark.parametrize("word", ["n/a", "-", "NaN"])
 def test_a_word_for_nothing_is_no_second_unit(tmp_path: Path, word: str) -> None:
     rows = [f"{stamp(5 * k)},T,{k / 8},{word if k % 7 == 0 else 'degC'}" for k in range(N)]

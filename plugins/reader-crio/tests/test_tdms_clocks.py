@@ -71,6 +71,16 @@ def test_a_path_beside_a_channel_of_times_has_these(tmp_path: Path) -> None:
 OVER_MM = {"wf_increment": 1.0, "wf_xunit_string": "mm"}
 
 
+def test_a_counter_that_is_full_is_counted_on_and_one_that_was_set_back_is_not(tmp_path: Path) -> None:
+    true = 60_000 + 1000 * np.arange(3000)
+    for name, counts, read in (("on", true % (1 << 16), true), ("back", true % 2_000_000, true % 2_000_000)):
+        path = written(tmp_path / f"{name}.tdms", {"Time": counts, "T": np.arange(3000.0)}, unit_string="ms")
+        since = np.array(times(path, Source(options={"block_rows": 450})))
+        assert (since // 10**6).tolist() == read.tolist()
+        notes = Reader().describe(path, Source()).notes
+        assert any("begins anew at 65536" in n for n in notes) is (name == "on")
+
+
 def stamps(form: str, n: int = 30) -> list[str]:
     return [(BEGAN + timedelta(minutes=k)).strftime(form) for k in range(n)]
 

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.clocks.wrapped_counter import Counter
+from thermodata.reader.times.wrapped_counter import Counter
 
 
 def read(folder: Path, counts: list[int], unit: str = "ms", block: int = 1 << 20) -> tuple[list[int], tuple[str, ...]]:

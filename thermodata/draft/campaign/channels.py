@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import dataclass, field
 
+from thermodata.draft.campaign.extremes import extremes_among, extremes_note
 from thermodata.draft.campaign.of_exports import as_exported
 from thermodata.draft.campaign.orientation import calibration_of, moved_too, reads_a_length, sign_of
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
@@ -62,13 +63,14 @@ class _Making:
 class _LeftOut:
     """What of a source is no channel. notes: on each that says something by itself; of_test: columns of an export that
     say which test it is of; flags: the store's, in an export; beside: what tells the quality or the number of another
-    signal."""
+    signal; extremes: what a logger wrote of one that it averaged, and that one."""
 
     source: str
     notes: list[str] = field(default_factory=list)
     of_test: set[str] = field(default_factory=set)
     flags: list[str] = field(default_factory=list)
     beside: list[str] = field(default_factory=list)
+    extremes: dict[str, str] = field(default_factory=dict)
 
     def takes(self, one: OneSignal, names: Set[str]) -> bool:
         """Keeps what an export says of the test, and flags of other columns; whether it is either."""
@@ -98,7 +100,7 @@ class _LeftOut:
             notes.append(
                 f"{self.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
             )
-        return notes
+        return [*notes, extremes_note(self.source, self.extremes)] if self.extremes else notes
 
 
 def channels_of(
@@ -116,7 +118,7 @@ def channels_of(
     left = _LeftOut(group.source)
     if more > 0:
         left.notes.append(f"{group.source}: {counted(more, 'more signal')}, left out of the draft")
-    made, seen = [], set[str]()
+    made, seen, extremes = [], set[str](), {} if making.exported else extremes_among(found)
     for one in found[:_MOST_SIGNALS]:
         name = one.signal.name
         if name in seen and name not in making.twice:
@@ -130,6 +132,8 @@ def channels_of(
             left.notes.append(f"{group.source}: '{one.written}' {why}: left out")
         elif _is_of_others(one):
             left.beside.append(one.written)
+        elif name in extremes:
+            left.extremes[one.written] = extremes[name]
         else:
             made.append(_channel(making, one, said, note))
     return made, left.told(making.exported)

@@ -146,10 +146,22 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     undated = [f.path.stem for f in files if f.start_ns is None]
     # beside recordings that date themselves, it is the names of the others that say when these began
     start = said.start if len(undated) == len(files) else said_by(undated).start if undated else None
-    if start is None and (start := named_start(files)) is not None:
+    if start is not None:
+        doubts.append("start: as the name says? it is that of the first row, in the timezone of its source")
+    elif (start := named_start(files)) is not None:
         comments.append("start guess: the date by the name, the time of day by the first row")
+    elif undated and len(undated) == len(files) and (day := _day_said(said)):
+        doubts.append(day)
     comment = "; ".join(filter(None, (comment, *comments)))
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
+
+
+def _day_said(said: Said) -> str:
+    """What to ask of the start of a test whose name says its day; '' where it says none."""
+    days = said.days or tuple(filter(None, [said.conditions.get("date")]))
+    if not days:
+        return ""
+    return f"start: '{days[0]} 08:00'? the name says {' or '.join(days)}; the time of day is that of the first row"
 
 
 def _turns(speed: str) -> bool:

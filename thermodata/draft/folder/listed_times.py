@@ -12,6 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.time_pattern import DAY_NS, is_date_text, is_time_of_day, is_zoned
+from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.times.zone import NAT
@@ -24,6 +25,7 @@ END = (
     "end. ends. ended. ende. stop. bis. to. until. fin. arret. tot. einde. eindtijd. stoptijd. endzeit. fine. konec. "
     "do. 结束 終了 停止"
 )
+DAY = "data. date. datum. dato. day. tag. giorno. jour. dia. fecha. den. 日期 日付"
 DURATION = "duration. dauer. duree. duur. 时长 時間長"
 
 
@@ -53,6 +55,7 @@ def listed_times(file: str, header: Sequence[str], rows: Mapping[str, Sequence[s
     titles = [words(split_unit(t)[0]) for t in header]
     columns = {name: _column(titles, cells, *listed) for name, listed in _WANTED.items()}
     date = _dates(titles, cells)
+    columns["begin"] = _bare_time(header, titles, cells, date) if columns["begin"] is None else columns["begin"]
     begins = _moments(cells, columns["begin"], date)
     ends = _moments(cells, columns["end"], date)
     found = {}
@@ -71,6 +74,20 @@ def _column(titles: Sequence[str], cells: Mapping[str, Sequence[str]], listed: s
     """The first column that is called so, and tells hours."""
     called = (i for i, t in enumerate(titles) if says(listed, t) and not says(but, t))
     return next((i for i in called if any(says_the_hour(c) for c in _filled(cells, i))), None)
+
+
+def _bare_time(
+    header: Sequence[str], titles: Sequence[str], cells: Mapping[str, Sequence[str]], date: int | None
+) -> int | None:
+    """The one column of moments, or of times of day beside dates, that is called a time and no end: 'Data;Ora'."""
+    called = [
+        i
+        for i, t in enumerate(titles)
+        if (is_time_header(header[i]) or says(DAY, t)) and not says(f"{END} {DURATION}", t)
+    ]
+    telling = [i for i in called if any(says_the_hour(c) for c in _filled(cells, i))]
+    dated = [i for i in telling if date is not None or not _is_clock(cells, i)]
+    return dated[0] if len(dated) == 1 else None
 
 
 def _dates(titles: Sequence[str], cells: Mapping[str, Sequence[str]]) -> int | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 
 from thermodata.draft.words.naming import without_marks
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant
@@ -41,18 +42,21 @@ _DATE = re.compile(
     r"(?:[ t-]+([01]\d|2[0-3])[-:h. ]?([0-5]\d)(?:[-:m. ]?([0-5]\d))?(?!\d))?"
 )
 _DATE_DMY = re.compile(r"(?<!\d)(0?[1-9]|[12]\d|3[01])\.(0?[1-9]|1[0-2])\.(20\d\d)(?!\d)")
+_DATE_SHORT = re.compile(r"(?<![\d.-])(\d\d)([-. ])(\d\d)\2(\d\d)(?![\d-])")
+_FIRST_YEAR = 2015  # that two digits of a date are of, up to now
 
 
 @dataclass(frozen=True, slots=True)
 class Said:
     """conditions: condition -> value with unit, of which the names leave no other reading; guessed: those that are
-    likely only; speeds: what a speed may be [rpm], where there are several readings; start: date and time of day;
-    questions: what to ask."""
+    likely only; speeds: what a speed may be [rpm], where there are several readings; start: date and time of day; days:
+    what a date with a year of two digits may be; questions: what to ask."""
 
     conditions: dict[str, str] = field(default_factory=dict)
     guessed: frozenset[str] = frozenset()
     speeds: tuple[float, ...] = ()
     start: str | None = None
+    days: tuple[str, ...] = ()
     questions: tuple[str, ...] = ()
 
 
@@ -69,7 +73,8 @@ def said_by(names: Sequence[str]) -> Said:
         conditions[condition] = value
         guessed.add(condition)
     start = _date(texts, conditions)
-    return Said(conditions, frozenset(guessed), speeds, start, tuple(questions))
+    days = () if "date" in conditions else _short_dates(texts)
+    return Said(conditions, frozenset(guessed), speeds, start, days, tuple(questions))
 
 
 def speed_in(piece: str) -> bool:
@@ -155,3 +160,18 @@ def _date(texts: Sequence[str], conditions: dict[str, str]) -> str | None:
     if match := _first(_DATE_DMY, texts):
         conditions["date"] = f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}"
     return None
+
+
+def _short_dates(texts: Sequence[str]) -> tuple[str, ...]:
+    """The readings of '02-03-26': day or month first, or the year."""
+    match = _first(_DATE_SHORT, texts)
+    if match is None:
+        return ()
+    latest = datetime.now(UTC).year
+    one, two, three = (int(match[k]) for k in (1, 3, 4))
+    found = (
+        (2000 + y, m, d)
+        for d, m, y in ((one, two, three), (three, two, one), (two, one, three))
+        if _FIRST_YEAR <= 2000 + y <= latest and 1 <= m <= 12 and 1 <= d <= 31
+    )
+    return tuple(dict.fromkeys(f"{y}-{m:02d}-{d:02d}" for y, m, d in found))

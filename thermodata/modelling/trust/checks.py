@@ -13,6 +13,7 @@ from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.trust.apart import told_apart
 from thermodata.modelling.trust.bound_checks import at_bounds
+from thermodata.modelling.trust.groups_apart import groups_apart
 from thermodata.modelling.trust.memory import effective_count
 from thermodata.modelling.trust.term_checks import lags_apart, longer_than_record, own_channel, ripple
 from thermodata.plugin import Float1D, Float2D
@@ -54,6 +55,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
             *at_bounds(response, term, tests),
             *longer_than_record(term, tests),
             *lags_apart(term),
+            *groups_apart(response, term, tests),
             *ripple(response, term, tests),
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None

@@ -22,6 +22,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import in_one_unit
+from thermodata.reader.text.preamble.begin import anew_note
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, lone_scales, scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.preamble.ways_said import WAY, ways_said
@@ -151,14 +152,13 @@ def _notes_of_counts(table: Table, source: Source) -> list[str]:
     """What is told of rows that count from a start, as far as the file was sampled: further heads with a start of their
     own, and a counter that begins anew."""
     reader = RowReader(table, source, 1)
-    starts: dict[str, None] = {}
+    notes: dict[str, None] = {}
     for some in (table.sample.head[table.layout.first :], table.sample.rest):
         # what it met on the way stands in the reader
         deque(reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)), maxlen=0)
-        starts.update({begin.text: None for begin in reader.anew})
-    notes = [f"times count anew from the start in a further head: '{text}'" for text in starts]
+        notes.update(dict.fromkeys(map(anew_note, reader.anew)))
     timed = [(c.timed.group.time, c.counter) for c in reader.clocks]
-    return notes + [note for time, c in timed if time and (note := c.note(table.layout.names[time[0]])) is not None]
+    return [*notes] + [note for time, c in timed if time and (note := c.note(table.layout.names[time[0]])) is not None]
 
 
 def _of_day_notes(table: Table, source: Source) -> list[str]:

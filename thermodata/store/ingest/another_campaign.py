@@ -42,6 +42,7 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     later = [] if stays else compared.of_other_days()
     if not later and _has_its_logs(held, found):
         return
+    later = later or ([] if stays else compared.beside_other_days())
     one_machine = len(machines) == 1 and _UNKNOWN not in machines
     named = compared.named if one_machine else []
     if named and not later and compared.goes_on():
@@ -89,6 +90,15 @@ class _Compared:
         shared = self._shared()
         known = _all_of(self.held) - shared
         return [t.id for t in self.named if not self.found[t.id] & known and self._days(t, shared) is False]
+
+    def beside_other_days(self) -> list[str]:
+        """The tests that have a log which is held, as all campaigns of a hall have its, beside logs which are all of
+        other days than those that are held beside it. Of a campaign of one test nothing else says whose that log is."""
+        return [
+            t.id
+            for t in self.named
+            if (both := self.held[t.id] & self.found[t.id]) and self._days(t, self._shared() | both) is False
+        ]
 
     def goes_on(self) -> bool:
         """Whether no test has a log now, or one has a log of its own that is held, or one of the same days."""

@@ -42,7 +42,7 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook_cells import joined, joined_words, part_of_date, seconds_of
 from thermodata_reader_table.workbook_days import local_times
-from thermodata_reader_table.workbook_start import begun
+from thermodata_reader_table.workbook_start import Heads, begun
 from thermodata_reader_table.workbook_swapped import swapped_times
 
 
@@ -162,7 +162,13 @@ class Table:
         if not self.start_above or len({s.of_day for s in found if not s.absolute}) > 1:
             return found
         zones = [stated_zone(self.layout.names[i] for i in g.time) or self.source.timezone for g in self.layout.groups]
-        begin = [begun(s, self.head, self.source, z, self.where) for s, z in zip(found, zones, strict=True)]
+        begin: list[Stamps] = []
+        for was, zone in zip(found, zones, strict=True):
+            times, further = begun(was, Heads(self.head, self.columns, self.repeats), self.source, zone, self.where)
+            if further:  # such rows are empty, as those are that repeat the header
+                self.repeats = gone = self.repeats | frozenset(further)
+                self.columns = [tuple(None if n in gone else c for n, c in enumerate(col)) for col in self.columns]
+            begin.append(times)
         self.begun = any(s.absolute and not was.absolute for s, was in zip(begin, found, strict=True))
         return begin
 
@@ -199,8 +205,8 @@ class Table:
         if group.counted:
             rows = len(self.columns[0]) if self.columns else 0
             return Stamps(to_ns(np.arange(rows) * float(group.seconds or 1.0), 1.0), False, ())
-        columns = [self.columns[i] for i in group.time]
-        zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
+        columns, names = [self.columns[i] for i in group.time], [self.layout.names[i] for i in group.time]
+        zone = stated_zone(names) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
             if unit == "excel" and self.from_1904:
@@ -208,8 +214,7 @@ class Table:
                 self.notes.append("days count from 1904, as the workbook says")
             if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
-            return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
-        names = [self.layout.names[i] for i in group.time]
+            return times_of_numbers(self._numbers(columns[0])[0], unit, zone, names[0])
         if since_midnight_format(group.form) is not None:
             counts = [[part_of_date(cell) for cell in cells] for cells in columns]
             return times_of_day(column_times(counts, find_formats(names, counts, group.form, self.where)))

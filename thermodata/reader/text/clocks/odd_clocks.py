@@ -11,11 +11,14 @@ from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_number, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
+from thermodata.reader.text.clocks.time_questions import format_question
 from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day
 _EACH = 0.9  # of the rows, that have a text of their own
+_DASHED = re.compile(r"([01]?\d|2[0-3])-([0-5]\d)-([0-5]\d)")
 _SHAPE = re.compile(r"([01]?\d|2[0-3])\D{1,4}[0-5]\d(\D.*)?")  # 8h05, 08-00-00, 8 Uhr 05
 
 
@@ -29,6 +32,10 @@ def clock_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError |
     if not days or any(map(says_the_hour, days)) or max(Counter(days).values()) < _MANY:
         return None
     others = [i for i in range(len(seen.names)) if i != place and _differs(i, seen.rows)]
+    dashed = next((i for i in range(len(seen.names)) if i != place and are_dashed_clocks(seen.column(i))), None)
+    if dashed is not None:
+        together = [f"{day} {str(r[dashed]).strip()}" for day, r in zip(days, seen.rows, strict=False)]
+        return format_question((place, dashed), seen, guess_format(together), together[0])
     if not others:
         return None
     worded = (i for i in others if is_time_header(seen.names[i]))
@@ -64,6 +71,19 @@ def _period_question(place: int, day: str, seen: FirstRows) -> QuestionError:
         "like a time",
         declare={"time": {"period": UNKNOWN}},
         meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def are_dashed_clocks(cells: Sequence[Cell]) -> bool:
+    """Whether cells are times of day such as 08-00-00, which look like dates of two digits: in either order of day and
+    month some of them are none."""
+    parts = [_DASHED.fullmatch(c.strip()) for c in cells if isinstance(c, str) and c.strip()]
+    found = [tuple(map(int, match.groups())) for match in parts if match is not None]
+    if not found or len(found) < len(parts):
+        return False
+    return all(
+        any(not (1 <= numbers[month] <= 12 and 1 <= numbers[day] <= 31) for numbers in found)
+        for day, month in ((0, 1), (1, 0))
     )
 
 

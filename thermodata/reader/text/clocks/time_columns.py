@@ -12,6 +12,7 @@ from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_num
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
+from thermodata.reader.text.clocks.odd_clocks import are_dashed_clocks
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside
 from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.header import split_unit
@@ -55,6 +56,8 @@ def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
 
     words = [i for i in range(width) if i in likely or is_time_header(seen.names[i])]
     dates = [i for i in range(width) if share(i, is_dated, 0.8)]
+    dashed = [i for i in dates if are_dashed_clocks(filled[i])]  # beside a date they are times of day
+    dates = [i for i in dates if i not in dashed] or dates
     clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
     of_day = [i for i in words if since_midnight(seen.names[i]) is not None and share(i, is_number, 0.6)]
     standing = _standing(

@@ -36,11 +36,11 @@ def no_time(seen: FirstRows) -> QuestionError | None:
         return weeks
     worded = worded_time(seen)
     if worded is None and (days := year_and_day(seen)) is not None:
-        return _format_question(days[0], seen, days[1], " ".join(str(seen.rows[0][i]) for i in days[0]))
+        return format_question(days[0], seen, days[1], " ".join(str(seen.rows[0][i]) for i in days[0]))
     if worded is None:
         return time_question(seen)
     place, words = worded
-    return _format_question((place,), seen, guess_format(words), words[0])
+    return format_question((place,), seen, guess_format(words), words[0])
 
 
 def weeks_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
@@ -198,15 +198,15 @@ def joined_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError 
 
     form, first = stamps(place)
     if form is not None and "%H" in form:
-        return _format_question((place,), seen, form, first)
+        return format_question((place,), seen, form, first)
     if form is not None and (of_day := _joined_clock(place, seen)) is not None:
-        return _format_question((place, of_day[0]), seen, f"{form} {of_day[1]}", first)
+        return format_question((place, of_day[0]), seen, f"{form} {of_day[1]}", first)
     if not mostly(seen.column(place), is_clocked, 0.8, len(seen.rows)):
         return None
     for i in (i for i, name in enumerate(seen.names) if i != place and is_time_header(name)):
         form, first = stamps(i)
         if form is not None and "%H" not in form:
-            return _format_question((i, place), seen, form, first)
+            return format_question((i, place), seen, form, first)
     return None
 
 
@@ -230,7 +230,7 @@ def of_day_question(place: int, seen: FirstRows) -> QuestionError | None:
         days = [str(r[day]).strip() for r in seen.rows if r[day] not in ("", None)]
         form = guess_format(days)
         spelled = None if form is None else f"{form} {letters}"
-        return _format_question((day, place), seen, spelled, f"{days[0]} {cells[0]}")
+        return format_question((day, place), seen, spelled, f"{days[0]} {cells[0]}")
     return None
 
 
@@ -274,7 +274,7 @@ def without_word(cell: Cell) -> Cell:
     return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
 
 
-def _format_question(columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str) -> QuestionError:
+def format_question(columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str) -> QuestionError:
     """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
     column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
     asked = (

@@ -26,6 +26,7 @@ from thermodata.reader.text.names.units_row import (
     mostly_units,
     of_units,
     units_below,
+    without_types,
 )
 
 # what loggers write before a row of units
@@ -49,7 +50,7 @@ def _read(
     rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
 ) -> tuple[list[str], list[str | None], list[str], int | None]:
     """Names, units, heads of groups, and the place of the names."""
-    texts = [_texts(r, width) for r in rows]
+    texts = [list(r) for r in without_types([_texts(r, width) for r in rows])]
     units: list[str | None] = [None] * width
     if units_row is None:
         units_row = _labelled_units(texts)
@@ -193,7 +194,8 @@ def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
 
 def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     """The rows between the names and the data that are part of neither, nor units; from 0."""
-    texts = [_texts(r, width)[:width] for r in rows]
+    told = [_texts(r, width)[:width] for r in rows]
+    texts = without_types(told)
     called = _labelled_units(texts)
     at = [i for i in range(len(texts)) if i != called]
     spanning = _spanning([texts[i] for i in at], width)
@@ -202,7 +204,7 @@ def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     times = [] if named is None else _times_among(texts[at[spanning[named]]])
-    return [i for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
+    return [i for i in below if any(told[i]) and (named is None or not of_units(texts[i], times))]
 
 
 def are_numbers(cells: Sequence[Cell]) -> bool:

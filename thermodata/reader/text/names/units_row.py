@@ -9,6 +9,11 @@ from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.names.header import looks_like_unit
 
 STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
+# what controls and loggers write of the type of each column, or of how it was sampled
+_TYPE = re.compile(
+    r"(?i)l?real|float(32|64)?|double|single|u?[sld]?int(8|16|32|64)?|bool(ean)?|[dl]?word|byte|w?string|w?char|"
+    r"l?dt|date_and_time|datetime|l?tod|time_of_day|inst(antaneous)?"
+)
 _OF_TIME = re.compile(r"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|hh?:mm(?::ss)?)[\])]?")
 # what loggers write in the row of units for stamps, numbers of records and alarms
 _NO_UNIT = re.compile(r"(?i)ts|rn|no\.?|time|zeit|date|datum|-+|alarm.*|[a-z]\d{3,}")
@@ -37,6 +42,25 @@ def are_units(cells: Sequence[Cell]) -> bool:
 
 def mostly_units(row: Sequence[str]) -> bool:
     return are_units([c for c in row if c])
+
+
+def without_types(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
+    """The rows above the data, those emptied that say of each column its type (REAL, INT) or how it was sampled (Inst,
+    Avg), where another row names the columns, each by a name of its own."""
+    of_types = [_says_types(row) for row in rows]
+    others = [[c for c in row if c] for row, says in zip(rows, of_types, strict=True) if not says]
+    named = any(2 * len(cells) > len(rows[0]) and len(set(cells)) == len(cells) for cells in others)
+    return [[""] * len(row) if says and named else row for row, says in zip(rows, of_types, strict=True)]
+
+
+def _says_types(row: Sequence[str]) -> bool:
+    filled = [c for c in row if c]
+    types = sum(_TYPE.fullmatch(c) is not None for c in filled)
+    return (
+        len(filled) > 1
+        and 2 * types >= len(filled)
+        and all(_TYPE.fullmatch(c) or STATISTIC.fullmatch(c) for c in filled)
+    )
 
 
 def of_units(row: Sequence[str], times: Sequence[int]) -> bool:

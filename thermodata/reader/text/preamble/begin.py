@@ -150,6 +150,11 @@ def begun_anew(lines: Sequence[Sequence[str]], begin: Begin | None) -> Begin | N
     return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, begin.order)
 
 
+def anew_note(begin: Begin) -> str:
+    """What is told of such a start."""
+    return f"times count anew from the start in a further head: '{begin.text}'"
+
+
 def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
     """What the rows count from; None where the head does not tell it for sure. sure: only where it does by itself."""
     if said.several or not first.ns:

@@ -9,7 +9,6 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.arrow import values
 from thermodata.reader.text.cells.number import Values
-from thermodata.reader.text.clocks.wrapped_counter import Counter
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.table import TimedGroup
@@ -17,6 +16,7 @@ from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, have_days
 from thermodata.reader.text.times.local_clock import DayCount, LocalClock
 from thermodata.reader.times.time_units import EPOCHS, Epoch, to_ns
+from thermodata.reader.times.wrapped_counter import Counter
 from thermodata.reader.times.zone import NAT
 
 

@@ -17,6 +17,7 @@ from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.text.times.second_sixty import at_second_sixty, said_of_sixty
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.reader.times.wrapped_counter import gone_on
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 
@@ -77,10 +78,12 @@ def times_of_dates(naive: npt.NDArray[np.datetime64], timezone: str | None) -> S
     return Stamps(utc, True, tuple(notes))
 
 
-def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
-    """Times of a column of numbers. unit: of time_units.check_unit()."""
+def times_of_numbers(values: Array, unit: str, timezone: str | None, name: str | None = None) -> Stamps:
+    """Times of a column of numbers. unit: of time_units.check_unit(); name: of a whole column, in which a counter that
+    is full is counted on."""
     if unit in SECONDS:
-        return Stamps(to_ns(values, SECONDS[unit]), False, ())
+        on, note = (values, None) if name is None else gone_on(values, name)
+        return Stamps(to_ns(on, SECONDS[unit]), False, () if note is None else (note,))
     epoch = EPOCHS[unit]
     t_ns = epoch.ns(values)
     return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())

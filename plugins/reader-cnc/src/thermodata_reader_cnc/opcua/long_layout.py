@@ -21,12 +21,12 @@ from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of
 from thermodata_reader_cnc.opcua.long_times import Times, time_columns, time_form
 
 _VALUES = (
-    *("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS),
+    *("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS, "payload"),
     *("valeur", "valore", "valor", "waarde", "wartość", "值", "数值", "测量值", "數值", "値", "測定値", "計測値", "값"),
 )
 _TAGS = (
     *NAME_WORDS,
-    *("pointname", "channelname", "parametername", "variablename", "messstellenname", "signalbezeichnung"),
+    *("topic", "pointname", "channelname", "parametername", "variablename", "messstellenname", "signalbezeichnung"),
     *("repère", "étiquette", "grandeur", "voie", "etiqueta", "etichetta", "grandezza", "señal", "zmienna"),
     *(
         "标签",

@@ -1,23 +1,32 @@
-"""Units that each row of a long table names beside its value: an instrument that ranges by itself says um, and mm once
-the value is large. A tag has one unit, the first that its rows name, and values in others are converted to it."""
+"""Units that each row of a long table names beside its value, or behind it in one cell ('20.98 °C'): an instrument that
+ranges by itself says um, and mm once the value is large. A tag has one unit, the first that its rows name, and values
+in others are converted to it."""
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from thermodata.errors import FormatError, UsageError
+from thermodata.reader.signals.unit_words import is_surely_unit
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import is_empty, to_float
+from thermodata.reader.text.cells.number import is_empty, of_either_mark, to_float
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.units.quantity import linear_conversion
 from thermodata_reader_cnc.opcua.long_layout import Layout
+
+_WITH_UNIT = re.compile(
+    r"(?P<number>[+-]?\d[\d.,' \u00a0\u202f]*?(?:[eE][+-]?\d+)?)\s*(?P<unit>[^\d\s.,+-][^\s]{0,11})"
+)
+_NEARLY_ALL = 0.9  # of a tag's values, that name their unit
 
 
 def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str, str], list[str]]:
     """(the unit of each tag whose rows name one, notes on those that name others too). FormatError where these do not
     convert."""
-    units: dict[str, str] = {}
+    units, notes = units_behind(layout, lines)
     others: dict[str, dict[str, None]] = {}
     for tag, unit in _said(layout, lines):
         first = units.setdefault(tag, unit)
@@ -31,21 +40,62 @@ def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str
             )
         if factor != (1.0, 0.0):
             others.setdefault(tag, {})[unit] = None
-    return units, [
+    return units, notes + [
         f"'{tag}' is given in {units[tag]}, also where its rows say {', '.join(some)}" for tag, some in others.items()
     ]
 
 
-def _said(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """(tag, unit) of each value whose row says one."""
-    parts = [(each, each.unit) for each in (layout, *layout.more) if each.tags]
-    for line in lines if any(unit is not None for _, unit in parts) else ():
-        cells = [clean(c) for c in fields(line, layout.delimiter)]
-        if len(cells) != layout.width:
+def units_behind(layout: Layout, lines: Sequence[str]) -> tuple[dict[str, str], list[str]]:
+    """(the unit of each tag nearly all values of which are numbers with a unit behind them, notes on them). Values in
+    units that do not convert to it are none."""
+    seen: Counter[str] = Counter()
+    found: dict[str, list[tuple[str, str]]] = {}
+    for each, cells in _rows(layout, lines):
+        value = cells[each.value]
+        if is_empty(value):
             continue
-        for each, unit in parts:
-            if unit is not None and not is_empty(cells[unit]):
-                yield each.named({k: [c] for k, c in enumerate(cells)}, 1)[0], cells[unit]
+        tag = _tag(each, cells)
+        seen[tag] += 1
+        if (parted := number_and_unit(value)) is not None:
+            found.setdefault(tag, []).append((parted[1], value))
+    units = {
+        tag: values[0][0]
+        for tag, values in found.items()
+        if sum(conversion(unit, values[0][0]) is not None for unit, _ in values) >= _NEARLY_ALL * seen[tag]
+    }
+    return units, [f"'{tag}' holds numbers with their unit ('{found[tag][0][1]}')" for tag in units]
+
+
+@lru_cache(maxsize=1 << 16)
+def number_and_unit(text: str) -> tuple[float, str] | None:
+    """(20.98, '°C') of '20.98 °C'; None of a bare number, and of words. Blanks may part thousands."""
+    match = _WITH_UNIT.fullmatch(text.strip())
+    if match is None or not is_surely_unit(match["unit"]):
+        return None
+    number = of_either_mark(match["number"].strip())
+    number = to_float(match["number"].strip()) if number is None else number
+    return None if number is None else (number, match["unit"])
+
+
+def _said(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """(tag, unit) of each value whose row says one in a cell of its own."""
+    if any(each.unit is not None for each in (layout, *layout.more)):
+        for each, cells in _rows(layout, lines):
+            if each.unit is not None and not is_empty(cells[each.unit]):
+                yield _tag(each, cells), cells[each.unit]
+
+
+def _rows(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[Layout, list[str]]]:
+    """The cells of each value that has a tag; those of a row with several come once for each of them."""
+    parts = [each for each in (layout, *layout.more) if each.tags]
+    for line in lines if parts else ():
+        cells = [clean(c) for c in fields(line, layout.delimiter)]
+        if len(cells) == layout.width:
+            yield from ((each, cells) for each in parts)
+
+
+def _tag(layout: Layout, cells: Sequence[str]) -> str:
+    return layout.named({k: [c] for k, c in enumerate(cells)}, 1)[0]
 
 
 @lru_cache(maxsize=1024)
@@ -61,6 +111,8 @@ def conversion(written: str, unit: str) -> tuple[float, float] | None:
 
 def in_unit_of(tag: str, value: str, written: str, units: Mapping[str, str]) -> tuple[str, str | None]:
     """(the value of a row in the unit of its tag, what is wrong with it or None); words stay as they are."""
+    if tag in units and (parted := number_and_unit(value)) is not None:
+        value, written = f"{parted[0]:.15g}", parted[1]
     number = to_float(value) if written and units.get(tag, written) != written else None
     if number is None or is_empty(written):
         return value, None

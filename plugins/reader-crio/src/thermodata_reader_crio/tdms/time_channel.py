@@ -19,6 +19,7 @@ from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.times.in_memory import Stamps, times_of_numbers, times_of_texts
 from thermodata.reader.times.since import count_in
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, known_unit
+from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
 from thermodata_reader_crio.tdms.channels import Channel
@@ -119,10 +120,14 @@ def time_channel(
         told = times_of_texts(cells, source.timezone, _declared(source, "format"), name)
     else:
         unit = _unit_of(channel, file, _declared(source, "unit"), notes, above)
-        if unit not in EPOCHS or not EPOCHS[unit].local:
+
+        def load(start: int, stop: int) -> Array:
+            return read(file, list(channel.columns), start, stop)[0]
+
+        # the order of all rows tells the hour that repeats, and where a counter is full
+        if not (EPOCHS[unit].local if unit in EPOCHS else may_begin_anew(load, channel.length)):
             return TimeChannel(channel, unit)
-        values = read(file, list(channel.columns), 0, channel.length)[0]
-        told = times_of_numbers(values, unit, source.timezone)
+        told = times_of_numbers(load(0, channel.length), unit, source.timezone, name)
     notes.extend(n for n in told.notes if n not in notes)
     return TimeChannel(channel, None, told)
 

@@ -16,6 +16,7 @@ from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.times import time_units
+from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
 from thermodata_reader_table.mat.tree import Tree
@@ -85,8 +86,11 @@ class Clocked:
         elif time.load is not None:
             unit = self._unit(time, stream.properties)
             absolute = time_units.is_absolute(unit)
-            if absolute and time_units.EPOCHS[unit].local:
-                found = in_memory.times_of_numbers(time.load(0, time.length), unit, self.source.timezone)
+            # what the order of all rows tells: the hour that repeats, where a counter is full
+            local = absolute and time_units.EPOCHS[unit].local
+            if local or (not absolute and may_begin_anew(time.load, time.length)):
+                values = time.load(0, time.length)
+                found = in_memory.times_of_numbers(values, unit, self.source.timezone, time.path)
                 whole = found.t_ns
                 self._note(found.notes)
         names = tuple(unique([c.name for c in stream.columns]))

@@ -56,7 +56,7 @@ def describe(path: Path, source: Source) -> Recording:
         "absolute" if found.absolute else "relative",
         start,
         True,
-        (*table.notes, *found.notes, *apart.notes, *told.notes, *filter(None, [unit_note])),
+        (*table.notes, *found.notes, *table.notes_of_counts(), *apart.notes, *told.notes, *filter(None, [unit_note])),
     )
 
 

@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Source
+from thermodata.plugin import Array, Source
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.page.find_groups import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.in_memory import times_of_numbers
-from thermodata.reader.times.time_units import to_ns
+from thermodata.reader.times.time_units import SECONDS, to_ns
+from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.damage import damage_as_format_error
 from thermodata_reader_table.parquet.day_and_clock import as_cells, joined, texts
@@ -131,8 +132,7 @@ class Table:
         if self.unit == "duration":
             return in_memory.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
         if self.unit is not None:
-            values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else numbers(column)
-            return times_of_numbers(values, self.unit, self.source.timezone)
+            return times_of_numbers(_counts(column), self.unit, self.source.timezone, self.names[self.time or 0])
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
             return in_memory.times_of_texts(texts(column), self.source.timezone, self.form, self.path.name)
         zone = getattr(kind, "tz", None)
@@ -140,6 +140,21 @@ class Table:
         if zone is not None:
             return in_memory.Stamps(naive, True, ())
         return in_memory.times_of_dates(naive.view("datetime64[ns]"), self.source.timezone)
+
+    def notes_of_counts(self) -> tuple[str, ...]:
+        """What is told of a time that counts from a start: a counter that begins anew where it is full."""
+        if self.time is None or self.beside or self.unit not in SECONDS:
+            return ()
+        return self.stamps().notes if may_begin_anew(self._first_or_last, self.file.metadata.num_rows) else ()
+
+    def _first_or_last(self, start: int, stop: int) -> Array:
+        """Counts of the first rows, or of the last ones, which the last part of the file holds."""
+        place = self.places[self.time or 0]
+        with damage_as_format_error(self.path):
+            if not start:
+                return _counts(column_at(next(self.file.iter_batches(stop, columns=[place[0]])), place))
+            last = self.file.read_row_group(self.file.num_row_groups - 1, columns=[place[0]])
+            return _counts(column_at(last, place))[start - stop :]
 
     def dtype(self, column: int) -> str:
         """numpy's name; integers and bool of a column that has missing values are float64."""
@@ -173,3 +188,9 @@ class Table:
             if statistics is None or not statistics.has_null_count or statistics.null_count:
                 return False
         return True
+
+
+def _counts(column: Any) -> Array:
+    import pyarrow.types as pt
+
+    return column.to_numpy() if pt.is_integer(column.type) and not column.null_count else numbers(column)

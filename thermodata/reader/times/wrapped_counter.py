@@ -3,12 +3,17 @@ through that, which no clock does that is set."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import numpy.typing as npt
+
+from thermodata.plugin import Array
 
 _FULL = (1 << 16, 1 << 32)  # counts
 _FEWEST = 10  # rows that show a step
 _LATEST = 4  # steps: a row that comes later after the counter began anew is of one that was set
+_LOOKED_AT = 1000  # rows at either end of a column
 _EVEN, _MOST_ODD = 0.1, 0.05  # of a step, by which rows may come late; the share of those that come later
 
 
@@ -55,3 +60,27 @@ def _begins_anew(chain: npt.NDArray[np.float64], steps: npt.NDArray[np.float64],
     odd = np.abs(on - step) > _EVEN * step
     falls = steps < 0
     return bool((chain == np.rint(chain)).all() and odd.mean() <= _MOST_ODD and not odd[falls].any())
+
+
+def gone_on(counts: Array, name: str) -> tuple[Array, str | None]:
+    """(a whole column of counts, gone on with where they begin anew, shape (n,); what is told of it)."""
+    if counts.dtype.kind not in "iuf":
+        return counts, None
+    counter = Counter()
+    on = counter.gone_on(counts.astype(np.float64))
+    return (on, counter.note(name)) if counter.times else (counts, None)
+
+
+def may_begin_anew(load: Callable[[int, int], Array], rows: int) -> bool:
+    """Whether a column may hold a counter that begins anew: it ends far below where its first steps lead to. load:
+    gives its values from a row up to another; rows: how many there are. Looks at both ends only."""
+    first = load(0, min(rows, _LOOKED_AT)) if rows >= _FEWEST else np.empty(0)
+    if first.size < _FEWEST or first.dtype.kind not in "iuf":
+        return False
+    last = load(max(0, rows - _LOOKED_AT), rows)
+    ends = np.concatenate([first, last]).astype(np.float64)
+    ends = ends[np.isfinite(ends)]
+    if ends.size < _FEWEST or not (ends == np.rint(ends)).all() or ends.min() < 0 or ends.max() >= _FULL[-1]:
+        return False
+    led_to = ends[0] + float(np.median(np.diff(ends[: min(rows, _LOOKED_AT)]))) * (rows - 1)
+    return bool(ends[-1] < led_to / 2 or (np.diff(ends) < 0).any())
