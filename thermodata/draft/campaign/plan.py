@@ -149,15 +149,14 @@ class _Channels:
 
 def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest]]) -> _Channels:
     """of_probes: source -> the jump tests of its probes."""
-    taken: set[str] = set()
-    calibrations: list[DraftJump] = []
-    found = _Channels([], calibrations, {}, [])
+    found = _Channels([], [], {}, [])
     in_tests = names_in_tests(groups)
     for g in groups:
-        made, notes = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
-        made = asked_whether_held(beside_each_other(with_told_speeds(made, g)), g, groups)
+        of_source = channels_of(g, of_probes[g.source], in_tests, {c.name.lower() for c in found.channels})
+        made = asked_whether_held(beside_each_other(with_told_speeds(of_source.channels, g)), g, groups)
         found.channels.extend(made)
-        found.notes.extend(notes)
+        found.calibrations.extend(of_source.calibrations)
+        found.notes.extend(of_source.notes)
         found.keyed[g.source] = _keyed(
             g, {(c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity}
         )
