@@ -15,6 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from thermodata.archive.workbook import check_size
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
@@ -24,7 +25,6 @@ from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
-from thermodata.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns
 from thermodata_reader_table.workbook_related import with_related
 from thermodata_reader_table.workbook_series import taken_apart
