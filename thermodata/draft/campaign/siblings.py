@@ -56,7 +56,7 @@ def _axes(channels: list[DraftChannel]) -> list[DraftChannel]:
         if (m := _LETTER.fullmatch(_own(c)))
         and m[2] != "a"
         and c.said.at
-        and c.said.at.startswith(("axis.", "rotary."))
+        and c.said.at.startswith(_OF_AXES)
     }
     made = []
     for channel in channels:
