@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.calibration.jump.checks import rows
+from thermodata.calibration.jump.checks import Seen, rows
 from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.jump.plateaus import Plateau
 from thermodata.calibration.result import Check
@@ -54,7 +54,8 @@ def judged(
     unit: str = "V",
     **more: Any,
 ) -> dict[str, Check]:
-    found = rows(spec(**more), list(moves), replace(FIT, **(changed or {})), crosstalk or {}, plateaus(*dwells), unit)
+    fit = replace(FIT, **(changed or {}))
+    found = rows(Seen(spec(**more), list(moves), fit, crosstalk or {}, plateaus(*dwells), unit))
     return {c["name"]: c for c in found}
 
 

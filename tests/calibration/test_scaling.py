@@ -89,6 +89,19 @@ def test_a_broken_scaling_is_refused_without_data(broken: Scaling) -> None:
         check_scaling(broken)
 
 
+def test_a_scaling_that_fails_says_of_which_channel(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Broken:
+        def scale(self, raw: object) -> None:
+            raise KeyError("NI_Scale[0]_Linear_Slope")
+
+    monkeypatch.setattr("thermodata.calibration.scaling._ni", lambda _: Broken())
+    known = Scaling("ni", {"NI_Number_Of_Scales": 1, "NI_Scale[0]_Scale_Type": "Linear"})
+    with pytest.raises(CalibrationError, match="channel 'Eddy/Z': NI scaling fails") as error:
+        apply_scaling(known, np.zeros(3), channel="Eddy/Z")
+    assert (error.value.where, error.value.got) == ("Eddy/Z", "KeyError: 'NI_Scale[0]_Linear_Slope'")
+    assert "export the channel already scaled" in (error.value.hint or "")
+
+
 def test_one_reading_that_a_scale_cannot_take_spoils_itself_only() -> None:
     volts = np.array([0.1, 0.09, np.nan, 0.11])
     got = apply_scaling(ni(RTD), volts)

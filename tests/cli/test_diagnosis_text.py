@@ -7,51 +7,29 @@ from typing import Any
 from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.text.fit import spots_text
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.schema.answers.diagnosis import Diagnosis, Unknown, WeakSpot
+from thermodata.schema.answers.diagnosis import Unknown, WeakSpot
 from thermodata.schema.answers.result import Parameter
 
+from ..answers import candidate, diagnosis
 
-def candidate(rank: int, effect: str, **more: Any) -> Candidate:
-    given: dict[str, Any] = {
-        "rank": rank,
-        "id": f"{effect}:T",
-        "effect": effect,
-        "family": effect,
-        "drivers": ["T"],
-        "claimed": False,
-        "p_value": 0.005,
-        "rmse_um_before": 4.0,
-        "rmse_um_after": 1.0,
-        "fit_before": None,
-        "fit_after": None,
-        "why": f"because of {effect}",
-    }
-    return Candidate(**{**given, **more})
+
+def ranked(rank: int, effect: str, **more: Any) -> Candidate:
+    figures = {"p_value": 0.005, "rmse_um_before": 4.0, "rmse_um_after": 1.0, "fit_before": None, "fit_after": None}
+    return candidate(f"{effect}:T", **{"rank": rank, "why": f"because of {effect}", **figures, **more})
 
 
 def text(verdict: Any, *candidates: Candidate, top: int = 8, unknown: Unknown | None = None) -> str:
-    found = Diagnosis(
-        model="m",
-        response="dZ",
-        verdict=verdict,
-        noise_um=0.2,
-        rmse_um=4.0,
-        explainable=0.9,
-        weak_spots=[],
-        candidates=list(candidates),
-        artefacts=[],
-        unknown=unknown,
-    )
+    found = diagnosis(*candidates, verdict=verdict, noise_um=0.2, rmse_um=4.0, unknown=unknown)
     return diagnosis_text(found, top)
 
 
 def test_each_claim_and_refinement_has_its_row_and_its_reason() -> None:
     said = text(
         "effect",
-        candidate(1, "screw", claimed=True, probability=0.94),
-        candidate(2, "sun", claimed=True, probability=0.7),
-        candidate(3, "mode", refinement=True),
-        candidate(4, "rest"),
+        ranked(1, "screw", claimed=True, probability=0.94),
+        ranked(2, "sun", claimed=True, probability=0.7),
+        ranked(3, "mode", refinement=True),
+        ranked(4, "rest"),
     )
     head, *_ = said.splitlines()
     assert head.startswith("missing: screw (T), probability 94 %, and sun (T), probability 70 %; ")
@@ -65,8 +43,8 @@ def test_each_claim_and_refinement_has_its_row_and_its_reason() -> None:
 
 
 def test_a_claim_beyond_the_table_still_has_its_row_and_its_reason() -> None:
-    claims = candidate(1, "screw", claimed=True), candidate(3, "sun", claimed=True)
-    said = text("effect", claims[0], candidate(2, "rest"), claims[1], top=1)
+    claims = ranked(1, "screw", claimed=True), ranked(3, "sun", claimed=True)
+    said = text("effect", claims[0], ranked(2, "rest"), claims[1], top=1)
     assert "why sun:T: because of sun" in said
     rows = [line.split()[:2] for line in said.splitlines() if line.split()[1:2] and line.split()[1].endswith(":T")]
     assert rows == [["1", "screw:T"], ["3", "sun:T"]]
@@ -74,7 +52,7 @@ def test_a_claim_beyond_the_table_still_has_its_row_and_its_reason() -> None:
 
 def test_names_of_twins_are_whole_and_those_that_have_no_room_are_counted() -> None:
     twins = [f"feed_motor:T_motor_of_axis_{axis}" for axis in "XYZAB"]
-    said = text("effect", candidate(1, "screw", claimed=True, equivalent=twins))
+    said = text("effect", ranked(1, "screw", claimed=True, equivalent=twins))
     assert "…" not in said
     joined = "".join(said.split())
     assert "T_motor_of_axis_X" in joined
@@ -92,7 +70,7 @@ def test_what_the_machine_did_where_a_model_fails_is_not_cut() -> None:
 
 def test_a_parameter_without_a_unit_is_one_number() -> None:
     exponent = Parameter(value=1.43, unit="1", low=None, high=None)
-    said = text("effect", candidate(1, "screw", claimed=True, parameters={"exponent": exponent}))
+    said = text("effect", ranked(1, "screw", claimed=True, parameters={"exponent": exponent}))
     assert "screw:T: exponent 1.43\n" in said
 
 
@@ -101,35 +79,35 @@ def test_parameters_are_told_with_interval_bound_and_what_a_gain_is_of() -> None
     tau = Parameter(value=1.0, unit="min", low=None, high=4.1157)
     gain = Parameter(value=8.59, unit="um", low=7.99, high=9.195)
     told = {"feed_screw.tau": tau, "feed_screw.gain": gain}
-    said = text("effect", candidate(1, "feed_screw", claimed=True, parameters=told))
+    said = text("effect", ranked(1, "feed_screw", claimed=True, parameters=told))
     assert "feed_screw:T: feed_screw.tau 1.00 min (at its bound; up to 4.12), feed_screw.gain 8.59 um (7.99 to" in said
     assert "; in brackets intervals of 95 %\nfeed_screw.gain is displacement at rest a kelvin (um at 10 m/min" in said
     inside = tau.model_copy(update={"value": 2.0})
-    alike = candidate(1, "feed_screw", claimed=True, parameters={"feed_screw.tau": inside})
+    alike = ranked(1, "feed_screw", claimed=True, parameters={"feed_screw.tau": inside})
     assert "feed_screw.tau 2.00 min (up to 4.12)" in text("effect", alike)
-    per_kelvin = candidate(
+    per_kelvin = ranked(
         1, "feed_screw", claimed=True, parameters={"feed_screw.gain": Parameter(value=1.0, unit="um/K")}
     )
     assert "is displacement" not in text("effect", per_kelvin), "its unit says it"
 
 
 def test_the_least_p_that_can_come_out_is_called_that() -> None:
-    said = text("effect", candidate(1, "screw", claimed=True), candidate(2, "sun"), candidate(3, "mill", p_value=0.13))
+    said = text("effect", ranked(1, "screw", claimed=True), ranked(2, "sun"), ranked(3, "mill", p_value=0.13))
     assert "0.00500" not in said
     assert "0.005 is the least that can come out, so rows that have it are told apart by their errors" in said
     assert "p: of responses in which nothing is missing, the share on which chance does as well;" in said
-    assert "the least that can" not in text("effect", candidate(1, "screw", claimed=True))
+    assert "the least that can" not in text("effect", ranked(1, "screw", claimed=True))
 
 
 def test_what_stands_beside_and_has_no_row_was_among_what_was_asked() -> None:
     beside = ["oil:T", "sun:T"]
-    said = text("effect", candidate(1, "screw", claimed=True, beside=beside), candidate(2, "sun"))
+    said = text("effect", ranked(1, "screw", claimed=True, beside=beside), ranked(2, "sun"))
     assert "the model's own. oil:T has no row here: it was among what was asked" in said
-    assert "no row" not in text("effect", candidate(1, "screw", beside=["sun:T"]), candidate(2, "sun"))
+    assert "no row" not in text("effect", ranked(1, "screw", beside=["sun:T"]), ranked(2, "sun"))
 
 
 def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promised() -> None:
-    said = text("unknown", candidate(1, "screw", probability=0.35), candidate(2, "sun"))
+    said = text("unknown", ranked(1, "screw", probability=0.35), ranked(2, "sun"))
     assert "why screw:T: because of screw" in said
     assert "why sun:T" not in said
     assert "could be explained" not in said
@@ -139,15 +117,15 @@ def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promi
 
 def test_errors_that_are_not_of_the_users_own_model_say_what_stands_beside() -> None:
     why = "where it acts (1 of 2 tests), beside sun:T, the error falls (5.00 -> 1.00 um)"
-    said = text("effect", candidate(1, "screw", claimed=True, rmse_um_before=5.0, why=why), candidate(2, "rest"))
+    said = text("effect", ranked(1, "screw", claimed=True, rmse_um_before=5.0, why=why), ranked(2, "rest"))
     assert "both with" in said
     assert "sun:T" in next(line for line in said.splitlines() if line.startswith("1 "))
-    assert "both with" not in text("effect", candidate(1, "screw", claimed=True), candidate(2, "rest"))
+    assert "both with" not in text("effect", ranked(1, "screw", claimed=True), ranked(2, "rest"))
 
 
 def test_left_out_errors_say_by_what_they_are_foretold() -> None:
     """A plain refit to the other tests gives other figures: effects are free, samples weighed, tests alike."""
-    said = text("effect", candidate(1, "screw", claimed=True)).splitlines()
+    said = text("effect", ranked(1, "screw", claimed=True)).splitlines()
     line = next(line for line in said if line.startswith("left-out: "))
     assert "foretold from the others" in line
     assert "free to act faster and slower than by one lag each" in line
@@ -159,7 +137,7 @@ def test_left_out_errors_say_by_what_they_are_foretold() -> None:
 def test_parts_of_tests_are_not_called_tests() -> None:
     part = {"campaign": "c", "test": "a", "from_s": 0.0, "to_s": 1.0, "acts": True}
     parts = [{**part, "rmse_um_before": 2.0, "rmse_um_after": 1.0}] * 2
-    said = text("effect", candidate(1, "screw", left_out=parts)).splitlines()[-1]
+    said = text("effect", ranked(1, "screw", left_out=parts)).splitlines()[-1]
     assert said.startswith("left-out: parts of the open tests in turn, foretold from the others: ")
     assert "1 open test is too few to leave one out, so 2 parts of it are" in said
 
@@ -173,18 +151,18 @@ def test_states_have_commas_within_and_are_parted_otherwise() -> None:
 
 def test_a_claim_has_its_parameters_and_the_command_that_takes_it_in() -> None:
     tau = Parameter(value=49.7, unit="min", low=None, high=None)
-    said = text("effect", candidate(1, "screw", claimed=True, parameters={"tau": tau}), candidate(2, "rest"))
+    said = text("effect", ranked(1, "screw", claimed=True, parameters={"tau": tau}), ranked(2, "rest"))
     assert "screw:T: tau 49.7 min\nto have it: thermodata add m 1" in said
     assert "add m 2" not in said
-    several = [candidate(k, name, claimed=True) for k, name in enumerate(("screw", "motor", "oil"), start=1)]
+    several = [ranked(k, name, claimed=True) for k, name in enumerate(("screw", "motor", "oil"), start=1)]
     assert "to have both: thermodata add m 1 2" in text("effect", *several[:2])
     assert "to have all: thermodata add m 1 2 3" in text("effect", *several)
 
 
 def test_what_refines_the_model_has_its_command_too() -> None:
-    modes = [candidate(k, name, refinement=True) for k, name in enumerate(("mode", "switch"), start=1)]
-    assert "\nto have mode:T and switch:T: thermodata add m 1 2\n" in text("refine", *modes, candidate(3, "rest"))
-    assert "to have mode" not in text("refine", candidate(1, "mode", refinement=True, as_modelled=True))
+    modes = [ranked(k, name, refinement=True) for k, name in enumerate(("mode", "switch"), start=1)]
+    assert "\nto have mode:T and switch:T: thermodata add m 1 2\n" in text("refine", *modes, ranked(3, "rest"))
+    assert "to have mode" not in text("refine", ranked(1, "mode", refinement=True, as_modelled=True))
 
 
 def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
@@ -197,11 +175,11 @@ def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
 
 def test_that_no_locked_test_was_opened_is_said_where_none_was() -> None:
     said = "no locked test was opened for this answer"
-    assert said in text("none", candidate(1, "screw"))
+    assert said in text("none", ranked(1, "screw"))
     assert said in text("unknown")
-    assert said not in text("unknown", candidate(1, "screw", locked_tests_asked=1))
-    assert said not in text("effect", candidate(1, "screw", claimed=True))
+    assert said not in text("unknown", ranked(1, "screw", locked_tests_asked=1))
+    assert said not in text("effect", ranked(1, "screw", claimed=True))
     looked = {"locked_tests_asked": 2, "locked_shape_um_before": 1.6, "locked_shape_um_after": 1.2}
-    mode = text("unknown", candidate(1, "sun"), candidate(2, "mode", refinement=True, **looked))
+    mode = text("unknown", ranked(1, "sun"), ranked(2, "mode", refinement=True, **looked))
     assert "on locked tests, opened for it, about each one's mean: mode:T 1.60 -> 1.20 um" in mode
     assert said not in mode

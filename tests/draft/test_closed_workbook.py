@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata import workbook_check
+from thermodata.archive import workbook as archived_workbook
 from thermodata.draft.campaign.plan import plan
 from thermodata.draft.folder.scan import scan
 from thermodata.draft.folder.table import closed_workbooks, grids_of
@@ -31,5 +31,5 @@ def test_what_is_absurd_once_it_is_laid_out_is_not_opened(tmp_path: Path, monkey
     LABS["workbooks"](tmp_path)
     table = tmp_path / "test_plan.xlsx"
     assert list(grids_of(table, 1000))
-    monkeypatch.setattr(workbook_check, "MAX_ROWS", 2)
+    monkeypatch.setattr(archived_workbook, "MAX_ROWS", 2)
     assert not list(grids_of(table, 1000))

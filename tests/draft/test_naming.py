@@ -24,7 +24,10 @@ UNITS = st.sampled_from(
 @given(st.lists(st.text(max_size=30), max_size=12))
 def test_channel_names_are_legal_and_unique_for_any_names(names: list[str]) -> None:
     taken: set[str] = set()
-    made = [channel_name(n, taken) for n in names]
+    made = []
+    for name in names:
+        made.append(channel_name(name, taken))
+        taken.add(made[-1].lower())
     assert all(NAME.match(m) and "__" not in m and m.lower() not in RESERVED_NAMES for m in made)
     assert len({m.lower() for m in made}) == len(names)
 

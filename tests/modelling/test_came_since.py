@@ -22,6 +22,7 @@ from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.grid.load import data_version
 
+from ..answers import candidate, diagnosis
 from .conftest import Spec, Stored
 
 FRESH = "c/t6 took no part in the choice of the effects: not fitted, it stays a verification test"
@@ -134,37 +135,12 @@ def test_a_report_says_at_its_top_what_is_older_than_the_data(
 
 
 def candidate_on(name: str, tests: list[str]) -> Candidate:
-    effect, _, driver = name.partition(":")
     left = [
         LeftOut(campaign="c", test=t, from_s=0.0, to_s=1.0, acts=True, rmse_um_before=5.0, rmse_um_after=3.0)
         for t in tests
     ]
-    return Candidate(
-        rank=1,
-        id=name,
-        effect=effect,
-        family=effect,
-        drivers=[driver],
-        claimed=True,
-        p_value=0.01,
-        rmse_um_before=5.0,
-        rmse_um_after=3.0,
-        fit_before=50.0,
-        fit_after=70.0,
-        left_out=left,
-    )
+    return candidate(name, claimed=True, left_out=left)
 
 
 def diagnosis_of(model: str, found: Candidate, data_version: str) -> Diagnosis:
-    return Diagnosis(
-        model=model,
-        response="dZ",
-        verdict="effect",
-        noise_um=0.3,
-        rmse_um=5.0,
-        explainable=0.9,
-        weak_spots=[],
-        candidates=[found],
-        artefacts=[],
-        data_version=data_version,
-    )
+    return diagnosis(found, model=model, data_version=data_version)

@@ -25,8 +25,6 @@ from thermodata.report.page.error_rows import error_rows
 from thermodata.report.page.headline import sentences
 from thermodata.report.text.fit import before_after_text, history_text
 from thermodata.report.words.numbers import pooled
-from thermodata.schema.answers.candidate import Candidate
-from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
 from thermodata.store.catalogue.findings import save_diagnosis
@@ -34,6 +32,7 @@ from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
+from ..answers import candidate, diagnosis
 from .conftest import EFFECTS, TRUTH, Spec, Stored
 
 
@@ -223,34 +222,7 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="bare"))
     with pytest.raises(UsageError, match="no diagnosis"):
         add(store, parent.model, 1)
-    found = Candidate(
-        rank=1,
-        id="coolant:coolant_on",
-        effect="coolant",
-        family="coolant",
-        drivers=["coolant_on"],
-        claimed=True,
-        p_value=0.01,
-        rmse_um_before=5.0,
-        rmse_um_after=3.0,
-        fit_before=50.0,
-        fit_after=70.0,
-    )
-    save_diagnosis(
-        store,
-        parent.model,
-        Diagnosis(
-            model=parent.model,
-            response="dZ",
-            verdict="effect",
-            noise_um=0.3,
-            rmse_um=5.0,
-            explainable=0.9,
-            weak_spots=[],
-            candidates=[found],
-            artefacts=[],
-        ),
-    )
+    save_diagnosis(store, parent.model, diagnosis(candidate("coolant:coolant_on", claimed=True), model=parent.model))
     with pytest.raises(UsageError, match="no candidate of rank 7"):
         add(store, parent.model, "7")
     with pytest.raises(UsageError, match="rank 1 is one of the diagnosis of dZ"):
@@ -271,40 +243,13 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
 
 def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="several"))
-    figures: dict[str, Any] = {
-        "p_value": 0.01,
-        "rmse_um_before": 5.0,
-        "rmse_um_after": 3.0,
-        "fit_before": 50.0,
-        "fit_after": 70.0,
-    }
     locked = {"locked_rmse_um_before": 1.67, "locked_rmse_um_after": 0.53}
     claims = [
-        Candidate(
-            rank=k,
-            id=f"{effect}:{channel}",
-            effect=effect,
-            family=effect,
-            drivers=[channel],
-            claimed=True,
-            **figures,
-            **locked,
-        )
-        for k, (effect, channel) in enumerate([("coolant", "coolant_on"), ("feed_screw", "T_nut")], start=1)
+        candidate(name, rank=k, claimed=True, **locked)
+        for k, name in enumerate(("coolant:coolant_on", "feed_screw:T_nut"), start=1)
     ]
     version = run.load(store, parent.model).data.data_version
-    found = Diagnosis(
-        model=parent.model,
-        response="dZ",
-        verdict="effect",
-        noise_um=0.3,
-        rmse_um=5.0,
-        explainable=0.9,
-        weak_spots=[],
-        candidates=claims,
-        artefacts=[],
-        data_version=version,
-    )
+    found = diagnosis(*claims, model=parent.model, data_version=version)
     save_diagnosis(store, parent.model, found)
     assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
     both = add(store, parent.model, 1, 2, plain=True)
@@ -314,34 +259,7 @@ def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(st
 def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store, spec: Spec) -> None:
     """A second lag that came along is none of its own; the same effect by another channel is another one."""
     parent, data = spec("spindle_bearing"), run.load(store, run.fit(store, spec("spindle_bearing")).model).data
-    figures: dict[str, Any] = {
-        "p_value": None,
-        "rmse_um_before": 5.0,
-        "rmse_um_after": 3.0,
-        "fit_before": 50.0,
-        "fit_after": 70.0,
-    }
-    offer = Candidate(
-        rank=1,
-        id="lag:T_nut",
-        effect="lag",
-        family="generic",
-        drivers=["T_nut"],
-        claimed=False,
-        refinement=True,
-        **figures,
-    )
-    found = Diagnosis(
-        model="m",
-        response="dZ",
-        verdict="refine",
-        noise_um=0.3,
-        rmse_um=5.0,
-        explainable=0.9,
-        weak_spots=[],
-        candidates=[offer],
-        artefacts=[],
-    )
+    found = diagnosis(candidate("lag:T_nut", refinement=True, p_value=None), verdict="refine")
     nut = with_candidate(parent, "lag:T_nut", data.channels)
     assert adds_what_was_offered(nut, data, parent, found)
     second = parent.effects[0].model_copy(update={"id": "again"})

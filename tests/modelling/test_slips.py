@@ -18,23 +18,14 @@ from thermodata.store.catalogue.findings import save_diagnosis
 from thermodata.store.catalogue.models import find_model
 from thermodata.view.grid.dataset import Dataset
 
+from ..answers import diagnosis
 from .conftest import Spec, Stored
 
 SLIP = Artefact(kind="step", campaign="c", test="t2", at_s=4 * 3600.0, size_um=14.04, why="")
 
 
-def diagnosis(*artefacts: Artefact, model: str = "m", response: str = "dZ") -> Diagnosis:
-    return Diagnosis(
-        model=model,
-        response=response,
-        verdict="none",
-        noise_um=0.3,
-        rmse_um=0.5,
-        explainable=0.0,
-        weak_spots=[],
-        candidates=[],
-        artefacts=list(artefacts),
-    )
+def with_steps(*artefacts: Artefact, **more: str) -> Diagnosis:
+    return diagnosis(artefacts=list(artefacts), verdict="none", **more)
 
 
 def slipped(world: Dataset, size: float = 14.0) -> Dataset:
@@ -53,7 +44,7 @@ def store(stored: Stored, world: Dataset, tmp_path_factory: pytest.TempPathFacto
 
 def test_what_was_told_of_a_test_is_taken_out_of_it_alone(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", "feed_screw", "ambient_frame", "centrifugal_shift", "coolant"))
-    save_diagnosis(store, parent.model, diagnosis(SLIP, model=parent.model))
+    save_diagnosis(store, parent.model, with_steps(SLIP, model=parent.model))
     grown = add(store, parent.model, "step:t2")
     line = find_model(store, grown.model).spec.effects[-1]
     assert (line.effect, line.tests, line.fixed) == ("step", ["c/t2"], {"at": 240.0, "gain": 14.0})
@@ -68,14 +59,14 @@ def test_what_was_told_of_a_test_is_taken_out_of_it_alone(store: Store, spec: Sp
 
 def test_a_slip_in_one_of_several_campaigns_is_named_with_its_campaign() -> None:
     other = SLIP.model_copy(update={"campaign": "d"})
-    assert slip_ids(diagnosis(SLIP)) == ["step:t2"]
-    assert slip_ids(diagnosis(SLIP, other)) == ["step:c/t2", "step:d/t2"]
+    assert slip_ids(with_steps(SLIP)) == ["step:t2"]
+    assert slip_ids(with_steps(SLIP, other)) == ["step:c/t2", "step:d/t2"]
 
 
 def test_two_slips_of_a_test_are_two_lines(spec: Spec, world: Dataset) -> None:
     later = SLIP.model_copy(update={"at_s": 6 * 3600.0, "size_um": -3.0})
     other = SLIP.model_copy(update={"test": "t3"})
-    lines = lines_of_test("step:t2", spec("spindle_bearing"), world, diagnosis(SLIP, other, later), ["dZ"])
+    lines = lines_of_test("step:t2", spec("spindle_bearing"), world, with_steps(SLIP, other, later), ["dZ"])
     assert [(e.tests, e.fixed) for e in lines] == [
         (["c/t2"], {"at": 240.0, "gain": 14.0}),
         (["c/t2"], {"at": 360.0, "gain": -3.0}),
@@ -85,10 +76,10 @@ def test_two_slips_of_a_test_are_two_lines(spec: Spec, world: Dataset) -> None:
 
 def test_a_slip_is_that_of_the_response_that_was_diagnosed(spec: Spec, world: Dataset) -> None:
     both = spec("spindle_bearing", response=[{"axis": "X", "at": "tcp"}, {"axis": "Z", "at": "tcp"}])
-    (line,) = lines_of_test("step:t2", both, world, diagnosis(SLIP), ["dX", "dZ"])
+    (line,) = lines_of_test("step:t2", both, world, with_steps(SLIP), ["dX", "dZ"])
     assert line.acts_on == [both.responses[1]]
     shared = spec({"effect": "spindle_bearing", "gain_by": "place"}, response=[{"channel": "dX"}, {"channel": "dZ"}])
-    (line,) = lines_of_test("step:t2", shared, world, diagnosis(SLIP), ["dX", "dZ"])
+    (line,) = lines_of_test("step:t2", shared, world, with_steps(SLIP), ["dX", "dZ"])
     assert (line.acts_on, line.gain_by, set(line.fixed)) == (None, "place", {"at"})
 
 
@@ -108,10 +99,10 @@ def test_a_drift_belongs_to_its_test_too(spec: Spec, world: Dataset) -> None:
 )
 def test_what_names_no_slip_that_was_told_is_refused(spec: Spec, world: Dataset, candidate: str, says: str) -> None:
     with pytest.raises(UsageError) as refused:
-        lines_of_test(candidate, spec("spindle_bearing"), world, diagnosis(SLIP), ["dZ"])
+        lines_of_test(candidate, spec("spindle_bearing"), world, with_steps(SLIP), ["dZ"])
     assert says in " ".join(str(refused.value).replace("\n", "; ").split())
 
 
 def test_a_test_that_there_is_not_is_refused(spec: Spec, world: Dataset) -> None:
     with pytest.raises((UsageError, SpecError), match="t99"):
-        lines_of_test("step:t99", spec("spindle_bearing"), world, diagnosis(SLIP), ["dZ"])
+        lines_of_test("step:t99", spec("spindle_bearing"), world, with_steps(SLIP), ["dZ"])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.notebook.verdict import Verdict
-from thermodata.schema.answers.candidate import Candidate
-from thermodata.schema.answers.diagnosis import Diagnosis
+
+from ..answers import candidate, diagnosis
 
 
 class Asked:
@@ -28,15 +28,8 @@ class Asked:
 
 
 def verdict(of: Asked) -> Verdict[None]:
-    coolant = Candidate(
-        rank=1, id="coolant:coolant_on", effect="coolant", family="coolant", drivers=["coolant_on"], claimed=True,
-        p_value=0.01, rmse_um_before=5.0, rmse_um_after=3.0, fit_before=50.0, fit_after=70.0,
-    )  # fmt: skip
-    found = Diagnosis(
-        model="a", response="T_nut", verdict="none", noise_um=0.1, rmse_um=0.5, explainable=0.0, weak_spots=[],
-        candidates=[coolant], artefacts=[],
-    )  # fmt: skip
-    return Verdict(of, found)
+    coolant = candidate("coolant:coolant_on", claimed=True)
+    return Verdict(of, diagnosis(coolant, response="T_nut", verdict="none", rmse_um=0.5, explainable=0.0))
 
 
 def test_a_rank_is_one_of_this_verdict_whatever_was_asked_since() -> None:

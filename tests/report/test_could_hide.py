@@ -10,6 +10,8 @@ from thermodata.report.verdict.could_hide import could_be, could_hide
 from thermodata.report.verdict.left_over import left_over
 from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis
 
+from ..answers import diagnosis
+
 
 def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", behind: str | None = None) -> Any:
     """Large from 3 um on."""
@@ -26,18 +28,8 @@ def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", b
 
 
 def found(*limits: DetectionLimit, response: float | None = 9.0) -> Diagnosis:
-    return Diagnosis(
-        model="m",
-        response="dZ",
-        verdict="none",
-        noise_um=0.1,
-        rmse_um=0.3,
-        explainable=None,
-        weak_spots=[],
-        candidates=[],
-        artefacts=[],
-        response_um=response,
-        limits=list(limits),
+    return diagnosis(
+        verdict="none", noise_um=0.1, rmse_um=0.3, explainable=None, response_um=response, limits=list(limits)
     )
 
 

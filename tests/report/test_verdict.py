@@ -21,25 +21,13 @@ from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
 from thermodata.schema.words.sentences import listed
 
+from ..answers import candidate
 from .conftest import diagnosis
 
 
 def one(effect: str, **more: Any) -> Candidate:
-    given: dict[str, Any] = {
-        "rank": 1,
-        "id": f"{effect}:T",
-        "effect": effect,
-        "family": effect,
-        "drivers": ["T"],
-        "claimed": False,
-        "p_value": 0.005,
-        "rmse_um_before": 4.0,
-        "rmse_um_after": 1.0,
-        "fit_before": None,
-        "fit_after": None,
-        "why": f"because of {effect}",
-    }
-    return Candidate(**{**given, **more})
+    given = {"p_value": 0.005, "rmse_um_before": 4.0, "rmse_um_after": 1.0, "fit_before": None, "fit_after": None}
+    return candidate(f"{effect}:T", **{"why": f"because of {effect}", **given, **more})
 
 
 def among(*others: str) -> str:

@@ -10,7 +10,6 @@ import pytest
 
 from thermodata.cli import main
 from thermodata.modelling.named import newest_model
-from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
@@ -18,6 +17,7 @@ from thermodata.store.catalogue.findings import save_diagnosis
 from thermodata.store.catalogue.models import find_model, save_fit
 from thermodata.view.lists.models import model_rows
 
+from ..answers import diagnosis
 from ..view.conftest import Builder
 from .client import Client
 from .conftest import client_of
@@ -76,10 +76,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
     save_diagnosis(
         store,
         newest,
-        Diagnosis(
-            model=newest, response="T_nut", verdict="none", noise_um=0.1, rmse_um=0.5, explainable=0.0, weak_spots=[],
-            candidates=[], artefacts=[],
-        ),
+        diagnosis(model=newest, response="T_nut", verdict="none", rmse_um=0.5, explainable=0.0),
     )  # fmt: skip
     return client_of(store.path)[0]
 

@@ -1,1 +1,1 @@
-"""Files as they stand on the disk: regular ones, packed ones, and those in archives."""
+"""Files as they stand on the disk: regular ones, packed ones, those in archives, and workbooks."""

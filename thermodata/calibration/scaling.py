@@ -58,7 +58,7 @@ def apply_scaling(scaling: Scaling | None, raw: Raw, *, channel: str | None = No
     # npTDMS adds raw integers in their own width, where 200 + 100 is 44, and cuts what it makes of them to integers
     data, scalers = None if data is None else _wide(data), {k: _wide(v) for k, v in scalers.items()}
     n = len(data) if data is not None else len(next(iter(scalers.values())))
-    return _scale(scale, data, scalers, np.arange(n)) if n else np.empty(0)
+    return _scale(scale, data, scalers, np.arange(n), channel) if n else np.empty(0)
 
 
 def check_scaling(scaling: Scaling | None, *, channel: str | None = None) -> None:
@@ -210,7 +210,7 @@ def _inputs(scaling: Scaling, raw: Raw, channel: str | None) -> tuple[Array | No
     return None, scalers
 
 
-def _scale(scale: Any, data: Array | None, scalers: Mapping[int, Array], rows: Array) -> Float1D:
+def _scale(scale: Any, data: Array | None, scalers: Mapping[int, Array], rows: Array, channel: str | None) -> Float1D:
     """Scales all rows in one call; where npTDMS raises (one broken wire spoils the block), halves the block
     until the rows at fault stand alone, and gives NaN for those."""
     whole = len(rows) == len(data if data is not None else next(iter(scalers.values())))
@@ -223,8 +223,9 @@ def _scale(scale: Any, data: Array | None, scalers: Mapping[int, Array], rows: A
             return np.asarray(scale.scale(view), dtype=np.float64)
     except Exception as error:
         if not isinstance(error, ValueError | ArithmeticError | np.linalg.LinAlgError):
-            raise CalibrationError(f"NI scaling failed: {type(error).__name__}: {error}") from error
+            got = f"{type(error).__name__}: {error}"
+            raise _refused("NI scaling fails", channel, "scales that npTDMS can apply", got) from error
         if len(rows) == 1:
             return np.array([np.nan])
         half = len(rows) // 2
-        return np.concatenate([_scale(scale, data, scalers, part) for part in (rows[:half], rows[half:])])
+        return np.concatenate([_scale(scale, data, scalers, part, channel) for part in (rows[:half], rows[half:])])

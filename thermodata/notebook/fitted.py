@@ -140,21 +140,13 @@ class Fit(Shown):
         'campaign:ID' is the campaign where a path is called so too. What can't be predicted is left out, with the
         reason in `left_out`. conditions: of all tests, as logs without a campaign file say none: {"tool": "A"}.
         UsageError where there is no test; a `NoBandWarning` where the band of 95 % is not known, and is NaN."""
-        from thermodata.draft.known.to_predict import predictions_of
-        from thermodata.modelling.compare.ahead import ahead
-        from thermodata.modelling.on_its_tests import on_its_tests
-        from thermodata.modelling.predictions.conditions import under
-        from thermodata.modelling.run import load
+        from thermodata.draft.known.to_predict import predict_logs
 
         heed(self.store, [self.id])
         lost = list[str]()
-        loaded = on_its_tests(self.store, load(self.store, self.id, uncertainty=True))
-        made, left_out = predictions_of(
-            self.store, loaded.fitted, os.fspath(target), lost.append, under=lambda data: under(data, conditions or {})
-        )
-        band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
-        heed_no_band(band.why_not)
-        return Predictions(self.id, [band.of(p) for p in made], [*left_out, *lost])
+        logs = predict_logs(self.store, self.id, os.fspath(target), lost.append, conditions=conditions)
+        heed_no_band(logs.band.why_not)
+        return Predictions(self.id, logs.made, [*logs.left_out, *lost])
 
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:
         """What each effect gives in a test; in the one with the largest error where none is named. UsageError with the

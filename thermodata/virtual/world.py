@@ -7,6 +7,7 @@ library. None is a first-order lag: a fitted sum of lags leaves what a distribut
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -102,6 +103,35 @@ def make_world(
 
     UsageError for an unknown effect, fewer than two tests or less than two hours.
     """
+    _refuse(hide, seed, tests, hours)
+    rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
+    axis = _axis(rng, hide)
+    ops = make_plan(rng, axis, hours, tests)
+    machine = build(rng, ops[0].home)
+    hall = Hall.draw(rng)
+    sensors, spare = make_sensors(rng)
+    starts = _starts(rng, len(ops), hours)
+    outside = [air(hall, op, hour, day, rng) for op, (day, hour) in zip(ops, starts, strict=True)]
+    temperatures, units = _in_the_machine(machine, ops, outside, sensors, AXES[axis], rng)
+    levers = draw_levers(rng, hide, axis, units, ops)
+    present = tuple(levers)
+    sensors = _placed(sensors, spare, present, AXES[axis], hide if not measured else None)
+    noise, white = float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.1, 0.25))
+    runs = []
+    for op, cells, unit, boundary, (day, hour) in zip(ops, temperatures, units, outside, starts, strict=True):
+        contributions = {e: levers[e][:, None] * unit[e] for e in present}
+        total = np.sum(list(contributions.values()), axis=0)
+        total = total + np.stack([smooth(rng, op.n, noise, float(rng.uniform(600, 2400))) for _ in range(3)])
+        readings = {s.name: s.read(_true(s, cells, boundary, op), rng) for s in sensors}
+        runs.append(Run(op, EPOCH_S + 86_400.0 * day + 3600.0 * hour, readings, contributions, total))
+    return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
+
+
+EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague
+
+
+def _refuse(hide: str, seed: int, tests: int | None, hours: float) -> None:
+    """UsageError for what no campaign can be made of."""
     if hide != "none" and hide not in EFFECTS:
         close = nearest(hide, [*EFFECTS, "none"])
         raise UsageError(
@@ -118,44 +148,31 @@ def make_world(
         )
     if not 2.0 <= hours <= 96.0:
         raise UsageError("tests of this length tell nothing about heat", expected="2 to 96 h", got=f"{hours} h")
-    rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
-    axis = _axis(rng, hide)
-    ops = make_plan(rng, axis, hours, tests)
-    machine = build(rng, ops[0].home)
-    hall = Hall.draw(rng)
-    sensors, spare = make_sensors(rng)
-    starts = _starts(rng, len(ops), hours)
-    outside = [air(hall, op, hour, day, rng) for op, (day, hour) in zip(ops, starts, strict=True)]
-    cells = [s for s in sensors if isinstance(s.cell, tuple)]
+
+
+def _in_the_machine(
+    machine: Machine,
+    ops: Sequence[Operation],
+    outside: Sequence[Float2D],
+    sensors: Sequence[Sensor],
+    axis: str,
+    rng: np.random.Generator,
+) -> tuple[list[dict[str, Float1D]], list[dict[str, Float1D]]]:
+    """Of each test: (sensor -> the temperature of its cell, shape (n,) [degC]; effect -> the course that a lever of 1
+    makes a contribution, shape (n,))."""
+    cells = [(s.name, s.cell) for s in sensors if isinstance(s.cell, tuple)]
     growing = [e for e in EFFECTS if e != "centrifugal_shift"]
     observe = np.zeros((len(cells) + len(growing), machine.network.size))
-    for row, s in enumerate(cells):
-        assert isinstance(s.cell, tuple)
-        observe[row, machine.cells[s.cell[0]][s.cell[1]]] = 1.0
+    for row, (_, (body, number)) in enumerate(cells):
+        observe[row, machine.cells[body][number]] = 1.0
     for row, e in enumerate(growing, start=len(cells)):
-        observe[row] = machine.growth[_part(e, AXES[axis])]
-    seen = run(machine, ops, outside, observe, rng)
-    units: list[dict[str, Float1D]] = []
-    for op, field in zip(ops, seen, strict=True):
+        observe[row] = machine.growth[_part(e, axis)]
+    temperatures, units = list[dict[str, Float1D]](), list[dict[str, Float1D]]()
+    for op, field in zip(ops, run(machine, ops, outside, observe, rng), strict=True):
+        temperatures.append({name: field[row] for row, (name, _) in enumerate(cells)})
         unit = {e: field[row] - field[row, 0] for row, e in enumerate(growing, start=len(cells))}
-        unit["centrifugal_shift"] = (op.speed / MAX_SPEED) ** 2
-        units.append(unit)
-    levers = draw_levers(rng, hide, axis, units, ops)
-    present = tuple(levers)
-    sensors = _placed(sensors, spare, present, AXES[axis], hide if not measured else None)
-    noise, white = float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.1, 0.25))
-    runs = []
-    for op, field, unit, boundary, (day, hour) in zip(ops, seen, units, outside, starts, strict=True):
-        contributions = {e: levers[e][:, None] * unit[e] for e in present}
-        total = np.sum(list(contributions.values()), axis=0)
-        total = total + np.stack([smooth(rng, op.n, noise, float(rng.uniform(600, 2400))) for _ in range(3)])
-        true = {s.name: field[row] for row, s in enumerate(cells)}
-        readings = {s.name: s.read(_true(s, true, boundary, op), rng) for s in sensors}
-        runs.append(Run(op, EPOCH_S + 86_400.0 * day + 3600.0 * hour, readings, contributions, total))
-    return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
-
-
-EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague
+        units.append({**unit, "centrifugal_shift": (op.speed / MAX_SPEED) ** 2})
+    return temperatures, units
 
 
 def _axis(rng: np.random.Generator, hide: str) -> int:

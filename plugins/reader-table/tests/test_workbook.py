@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from thermodata_reader_table import Reader
 
-from thermodata import workbook_check
+from thermodata.archive import workbook as archived_workbook
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
 from thermodata.testing.reader import load
@@ -53,8 +53,6 @@ def bomb(path: Path, members: dict[str, bytes]) -> Path:
 def test_a_workbook_of_too_many_rows_is_refused_before_they_are_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sheets: int, tag: str
 ) -> None:
-    from thermodata import workbook_check
-
     def made(rows: int) -> Path:
         path = tmp_path / f"{rows}.xlsx"
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as book:
@@ -63,15 +61,15 @@ def test_a_workbook_of_too_many_rows_is_refused_before_they_are_read(
                 book.writestr(f"xl/worksheets/sheet{i}.xml", f"<worksheet><sheetData>{inside}</sheetData></worksheet>")
         return path
 
-    monkeypatch.setattr(workbook_check, "MAX_ROWS", 100_000)
-    workbook_check.check_size(made(100_000))
+    monkeypatch.setattr(archived_workbook, "MAX_ROWS", 100_000)
+    archived_workbook.check_size(made(100_000))
     with pytest.raises(FormatError, match="too many rows") as error:
-        workbook_check.check_size(made(100_020))
+        archived_workbook.check_size(made(100_020))
     assert "at most 100000 rows" in str(error.value)
 
 
 def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workbook_check, "MAX_UNPACKED", 10_000_000)
+    monkeypatch.setattr(archived_workbook, "MAX_UNPACKED", 10_000_000)
     path = bomb(tmp_path / "x.xlsx", {"xl/workbook.xml": b"<a/>", "xl/worksheets/sheet1.xml": b" " * 20_000_000})
     assert path.stat().st_size < 100_000
     with pytest.raises(FormatError, match="unpacks to more than"):
@@ -79,12 +77,12 @@ def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypa
 
 
 def test_a_header_that_lies_about_the_size_does_not_help(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workbook_check, "MAX_UNPACKED", 1_000_000)
+    monkeypatch.setattr(archived_workbook, "MAX_UNPACKED", 1_000_000)
     path = bomb(tmp_path / "x.xlsx", {"xl/worksheets/sheet1.xml": b" " * 2_000_000})
     size = (2_000_000).to_bytes(4, "little")
     path.write_bytes(path.read_bytes().replace(size, (1000).to_bytes(4, "little")))
     with pytest.raises(FormatError, match="unpacks to more than"):
-        workbook_check.check_size(path)
+        archived_workbook.check_size(path)
 
 
 def test_two_cells_far_apart_are_refused(tmp_path: Path) -> None:

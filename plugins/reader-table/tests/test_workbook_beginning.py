@@ -63,7 +63,7 @@ def test_a_sheet_whose_tags_have_a_prefix_begins_as_others_do(tmp_path: Path, mo
 
 
 def test_a_workbook_too_large_to_be_read_can_be_looked_at(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from thermodata.workbook_check import MAX_ROWS
+    from thermodata.archive.workbook import MAX_ROWS
 
     path = book(tmp_path / "x.xlsx", 2000)
     with zipfile.ZipFile(path) as archive:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.result import Check, check
 from thermodata.errors import UsageError
@@ -17,7 +19,7 @@ MOST_NOISE_UM = 5.0
 LEAST_NOISE_UM = 0.0005
 
 
-def probe_exists(spec: JumpCalibration, moves_um: list[float], fit: JumpFit, unit: str) -> Check | None:
+def probe_exists(spec: JumpCalibration, moves_um: Sequence[float], fit: JumpFit, unit: str) -> Check | None:
     """The row of a probe that reads volts; None of others, and where a data sheet says what it is."""
     if spec.gain is not None:
         return None

@@ -18,8 +18,10 @@ from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
 
 if TYPE_CHECKING:
+    from thermodata.draft.known.to_predict import LogsPredicted
     from thermodata.modelling.predictions.beyond import Beyond
     from thermodata.modelling.predictions.predict import Predicted
+    from thermodata.store import Store
 
 
 @command("predict")
@@ -65,34 +67,31 @@ def predict_command(
     Exit code 3 says that tests were left out.
     """
     from thermodata.cli.terminal.progress import progress_line
-    from thermodata.draft.known.to_predict import predictions_of
+    from thermodata.draft.known.to_predict import predict_logs
     from thermodata.export.series import check_out, write_table
-    from thermodata.modelling.compare.ahead import ahead
-    from thermodata.modelling.on_its_tests import on_its_tests
-    from thermodata.modelling.predictions.beyond import beyond
-    from thermodata.modelling.predictions.carried_on import said
-    from thermodata.modelling.predictions.conditions import under
-    from thermodata.modelling.run import load
-    from thermodata.store.catalogue.stale import stale_line
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
-    loaded = on_its_tests(store, load(store, resolve(store, model), uncertainty=True))
-    band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
-    given = dict(map(_condition, conditions))
+    one, given = resolve(store, model), dict(map(_condition, conditions))
     with progress_line() as line:
-        made, left_out = predictions_of(
-            store, loaded.fitted, target, session.say, line, tests, lambda data: under(data, given)
-        )
-    made = [band.of(p) for p in made]
-    for reason in left_out:
+        logs = predict_logs(store, one, target, session.say, line, tests, given)
+    for reason in logs.left_out:
         session.say(f"left out: {reason}")
-    if made and out is not None and kind is not None:
-        write_table(made, out, kind)
-    exit_code = 3 if left_out else 0
+    if logs.made and out is not None and kind is not None:
+        write_table(logs.made, out, kind)
     if as_csv and not session.as_json:
-        _print_csv(made)
-        return exit_code
+        _print_csv(logs.made)
+    else:
+        _answer(session, store, logs, out)
+    return 3 if logs.left_out else 0
+
+
+def _answer(session: Session, store: Store, logs: LogsPredicted, out: Path | None) -> None:
+    from thermodata.modelling.predictions.beyond import beyond
+    from thermodata.modelling.predictions.carried_on import said
+    from thermodata.store.catalogue.stale import stale_line
+
+    loaded, band, made = logs.loaded, logs.band, logs.made
     rows = [_row(p) for p in made]
     further = beyond(loaded.fitted, loaded.data, made)
     held = list(dict.fromkeys(one for p in made for one in p.held))
@@ -104,7 +103,7 @@ def predict_command(
         "step_s": loaded.data.step_s,
         "file": None if out is None or not made else str(out),
         "tests": [{**row, **_course(p)} for row, p in zip(rows, made, strict=True)],
-        "left_out": left_out,
+        "left_out": logs.left_out,
         "beyond": further,
         "held": held,
         "band": band,
@@ -114,7 +113,6 @@ def predict_command(
     }
     more = [*locked, *elsewhere, *said(held), *band_text(band, made)]
     session.answer(payload, lambda: _text(rows, made, further, more, out))
-    return exit_code
 
 
 def _print_csv(made: list[Predicted]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from statistics import median
 
 from thermodata.draft.campaign.parts import DraftJump
@@ -19,6 +19,16 @@ from thermodata.plugin import Signal
 from thermodata.schema.words.sentences import with_dots
 
 _SHOWN_STEPS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """How a displacement comes to the machine's axes. said: what it is by that, with what is asked; calibration: the
+    name of the one that turns it, None where there is none yet; jump: its jump test, as the draft has it."""
+
+    said: Guess
+    calibration: str | None = None
+    jump: DraftJump | None = None
 
 
 def which_way(said: Guess) -> str:
@@ -89,25 +99,18 @@ def _height(steps: Sequence[float]) -> float:
     return median(abs(s) for s in steps) if steps else 0.0
 
 
-def calibration_of(
-    name: str,
-    signal: Signal,
-    said: Guess,
-    jump: JumpTest | None,
-    jumps: Sequence[JumpTest],
-    calibrations: list[DraftJump],
-) -> tuple[str | None, Guess]:
-    """The jump test of a probe in volts, added to the calibrations; without one, the question for it. jump: the one in
-    which it is seen to move; jumps: all, of which one that shows no steps may be its own by its name."""
+def calibration_of(name: str, signal: Signal, said: Guess, jump: JumpTest | None, jumps: Sequence[JumpTest]) -> Turned:
+    """The jump test of a probe in volts; without one, the question for it. jump: the one in which it is seen to move;
+    jumps: all, of which one that shows no steps may be its own by its name."""
     jump = jump or next((j for j in jumps if _may_be_of(j, signal, said)), None)
     if jump is None:
         asked = "calibration? a jump test, or kind: scale with a gain in um/V"
-        return None, replace(said, sure=False, questions=(*said.questions, asked))
+        return Turned(replace(said, sure=False, questions=(*said.questions, asked)))
     if (between := question_between(name, said.unit or "V", jump, jumps)) is not None:
         others = (q for q in said.questions if q != "axis?")
-        said = replace(said, quantity="voltage", axis=None, at=None, sure=False, questions=(*others, between))
-        return None, said
-    return _drafted(name, signal, said, jump, calibrations)
+        questions = (*others, between)
+        return Turned(replace(said, quantity="voltage", axis=None, at=None, sure=False, questions=questions))
+    return _by_jump(name, signal, said, jump)
 
 
 def moved_too(signal: Signal, said: Guess, jumps: Sequence[JumpTest]) -> tuple[JumpTest | None, Guess]:
@@ -127,21 +130,17 @@ def moved_too(signal: Signal, said: Guess, jumps: Sequence[JumpTest]) -> tuple[J
     return None, said
 
 
-def sign_of(
-    name: str, signal: Signal, said: Guess, jump: JumpTest | None, calibrations: list[DraftJump]
-) -> tuple[str | None, Guess]:
-    """What turns a probe that reads a length: the jump test in which it is seen to move, added to the calibrations;
-    without one, the question which way it counts."""
+def sign_of(name: str, signal: Signal, said: Guess, jump: JumpTest | None) -> Turned:
+    """What turns a probe that reads a length: the jump test in which it is seen to move; without one, the question
+    which way it counts."""
     if jump is None:
-        return None, replace(said, sure=False, questions=(*said.questions, which_way(said)))
+        return Turned(replace(said, sure=False, questions=(*said.questions, which_way(said))))
     without = f"; until they stand here, {name} has no values: without 'calibration' it has, its sign unknown"
-    return _drafted(name, signal, said, jump, calibrations, without)
+    return _by_jump(name, signal, said, jump, without)
 
 
-def _drafted(
-    name: str, signal: Signal, said: Guess, jump: JumpTest, calibrations: list[DraftJump], beside: str = ""
-) -> tuple[str | None, Guess]:
-    """The jump test added to the calibrations. beside: what else to say to its question."""
+def _by_jump(name: str, signal: Signal, said: Guess, jump: JumpTest, beside: str = "") -> Turned:
+    """By its jump test, unless no axis is known. beside: what else to say to the question for the moves."""
     letter = axis_of(words(jump.file.path.stem))
     axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
     if said.axis is None and axis is not None:
@@ -149,21 +148,19 @@ def _drafted(
         asked = f"axis: {axis} by {jump.file.path.name}?"
         said = replace(said, axis=axis, sure=False, questions=(*others, asked))
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
-    calibrations.append(
-        DraftJump(
-            f"jump_{name}",
-            jump.source,
-            str(jump.file.path),
-            jump.written or signal.name,
-            axis,
-            float(f"{jump.dwell_s:.2g}"),
-            seen,
-            said.unit,
-            "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
-            jump.file.sheet,
-        )
+    drafted = DraftJump(
+        f"jump_{name}",
+        jump.source,
+        str(jump.file.path),
+        jump.written or signal.name,
+        axis,
+        float(f"{jump.dwell_s:.2g}"),
+        seen,
+        said.unit,
+        "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
+        jump.file.sheet,
     )
-    return (f"jump_{name}" if axis else None), said
+    return Turned(said, drafted.name if axis else None, drafted)
 
 
 def _steps(seen: Sequence[float], unit: str) -> str:

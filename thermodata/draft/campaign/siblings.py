@@ -53,10 +53,7 @@ def _axes(channels: list[DraftChannel]) -> list[DraftChannel]:
     placed = {
         (c.source, c.said.quantity, m[1] or ""): c.said.at
         for c in channels
-        if (m := _LETTER.fullmatch(_own(c)))
-        and m[2] != "a"
-        and c.said.at
-        and c.said.at.startswith(("axis.", "rotary."))
+        if (m := _LETTER.fullmatch(_own(c))) and m[2] != "a" and c.said.at and c.said.at.startswith(_OF_AXES)
     }
     made = []
     for channel in channels:

@@ -10,6 +10,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from thermodata.archive.unpacked import unpacked
+from thermodata.archive.workbook import check_size
 from thermodata.draft.folder.listed_times import ListedTime, listed_times
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.words.filenames import normal
@@ -18,7 +19,6 @@ from thermodata.draft.words.naming import plain, words
 from thermodata.draft.words.vocabulary import quantities_in
 from thermodata.errors import FormatError, ThermodataError
 from thermodata.reader.text import decode, split_unit
-from thermodata.workbook_check import check_size
 
 LARGEST = 4_000_000
 _ROWS_A_TEST = 4  # a table of tests has about a row a test; what has hundreds of rows for a few tests is a log

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import glob
 import tempfile
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,9 @@ from thermodata.draft.known.of_logs import as_list
 from thermodata.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
+    from thermodata.modelling.compare.ahead import Ahead
     from thermodata.modelling.predictions.predict import Predicted
+    from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.schema.files.campaign import Campaign
     from thermodata.store import Store
@@ -61,17 +63,48 @@ def data_of(
         yield _loaded(passing, campaign, fitted.spec.step)
 
 
-def predictions_of(
+@dataclass(frozen=True, slots=True)
+class LogsPredicted:
+    """A model on other logs. loaded: it on the tests that it was fitted to and checked on; band: what these say of how
+    far a prediction may be off; made: the predictions, each with its band; left_out: why tests are."""
+
+    loaded: Loaded
+    band: Ahead
+    made: list[Predicted]
+    left_out: list[str]
+
+
+def predict_logs(
     store: Store,
-    fitted: FittedModel,
+    model: str,
     target: str,
     say: Callable[[str], object],
     progress: Progress | None = None,
     tests: Collection[str] = (),
-    under: Callable[[Dataset], Dataset] = lambda data: data,
+    conditions: Mapping[str, str | float] | None = None,
+) -> LogsPredicted:
+    """A model of the store on all tests of the target, or on those named. say: is told of losses; conditions: of all
+    tests, beside their own or in place of them. UsageError for an unknown test, and where there is none."""
+    from thermodata.modelling.compare.ahead import ahead
+    from thermodata.modelling.on_its_tests import on_its_tests
+    from thermodata.modelling.run import load
+
+    loaded = on_its_tests(store, load(store, model, uncertainty=True))
+    band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
+    made, left_out = _predicted(store, loaded.fitted, target, say, progress, tests, conditions or {})
+    return LogsPredicted(loaded, band, [band.of(p) for p in made], left_out)
+
+
+def _predicted(
+    store: Store,
+    fitted: FittedModel,
+    target: str,
+    say: Callable[[str], object],
+    progress: Progress | None,
+    tests: Collection[str],
+    conditions: Mapping[str, str | float],
 ) -> tuple[list[Predicted], list[str]]:
-    """(predictions, why tests are left out), of all tests of the target or of those named. under: gives them other
-    conditions. UsageError for an unknown test, and where there is none."""
+    from thermodata.modelling.predictions.conditions import under
     from thermodata.modelling.predictions.predict import predict
 
     with data_of(store, fitted, target, say, progress) as (data, empty):
@@ -80,7 +113,7 @@ def predictions_of(
             if name not in known:
                 raise unknown_name("test", name, known)
         chosen = replace(data, tests=tuple(t for t in data.tests if not tests or t.test in tests))
-        made, left_out = predict(fitted, under(chosen))
+        made, left_out = predict(fitted, under(chosen, conditions))
     left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
     if not made and not left_out:
         raise UsageError("no test can be predicted", where=target, got="no test")

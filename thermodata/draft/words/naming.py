@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Set
 
 from anyascii import anyascii
 
@@ -88,13 +89,12 @@ def _sound(sign: str) -> str:
     return f"_{sound.lower()}_" if sound else "_" if said[-1:] == ["MARK"] else f"_u{ord(sign):x}_"
 
 
-def channel_name(wanted: str, taken: set[str]) -> str:
-    """A legal name, unique ignoring case and added to `taken`: `wanted`, or `wanted_2` where it is taken."""
+def channel_name(wanted: str, taken: Set[str]) -> str:
+    """A legal name: `wanted`, or `wanted_2` where it is taken. taken: in lower case, for case tells no two apart."""
     base = plain(wanted) or "channel"
     base = (base if base[0].isalpha() else f"ch_{base}")[:60].rstrip("_")
     name, n = base, 1
     while name.lower() in taken or name.lower() in RESERVED_NAMES:
         n += 1
         name = f"{base}_{n}"
-    taken.add(name.lower())
     return name

@@ -63,25 +63,22 @@ class Said:
 def said_by(names: Sequence[str]) -> Said:
     """What names say. names: of the test, of its folders and files, the one that counts most first."""
     texts = [_plain(n) for n in names]
-    conditions: dict[str, str] = {}
-    guessed: set[str] = set()
-    questions: list[str] = []
-    speeds = _speed(texts, conditions, guessed, questions)
-    _feed(texts, conditions, questions)
-    _air(texts, conditions, guessed, questions)
-    for condition, value in tool_and_coolant(names).items():
-        conditions[condition] = value
-        guessed.add(condition)
-    start = _date(texts, conditions)
-    days = () if "date" in conditions else _short_dates(texts)
-    return Said(conditions, frozenset(guessed), speeds, start, days, tuple(questions))
+    likely = tool_and_coolant(names)
+    speed, date = _speed(texts), _date(texts)
+    all_of_it = (speed, _feed(texts), _air(texts), _air_conditioning(texts), Said(likely, frozenset(likely)), date)
+    return Said(
+        conditions={condition: value for said in all_of_it for condition, value in said.conditions.items()},
+        guessed=frozenset(condition for said in all_of_it for condition in said.guessed),
+        speeds=speed.speeds,
+        start=date.start,
+        days=date.days,
+        questions=tuple(question for said in all_of_it for question in said.questions),
+    )
 
 
 def speed_in(piece: str) -> bool:
     """Whether a piece of a name states a speed, and nothing else: 'S8000', '6000rpm', not 'S001'."""
-    found: dict[str, str] = {}
-    _speed([_plain(piece)], found, set(), [])
-    return "speed" in found
+    return "speed" in _speed([_plain(piece)]).conditions
 
 
 def _plain(name: str) -> str:
@@ -96,70 +93,69 @@ def _value(text: str, thousands: bool = False) -> float:
     return float(text.replace(",", ".")) * (1000 if thousands else 1)
 
 
-def _speed(
-    texts: Sequence[str], conditions: dict[str, str], guessed: set[str], questions: list[str]
-) -> tuple[float, ...]:
-    """The speed or the schedule; returns the readings of a speed that has several."""
+def _speed(texts: Sequence[str]) -> Said:
+    """The speed or the schedule; the readings of a speed that has several, and which is asked."""
     if match := _first(_SCHEDULE, texts):
         parts = re.split(r"[+>-]", match[1] or match[3])
         thousands = (match[2] or match[4] or "").startswith("k") or parts[-1].endswith("k")
         levels = [_value(p.rstrip("k"), p.endswith("k") or (thousands and _value(p.rstrip("k")) < 100)) for p in parts]
-        conditions["schedule"] = ", ".join(f"{v:g} rpm" for v in levels)
-        return ()
+        return Said({"schedule": ", ".join(f"{v:g} rpm" for v in levels)})
     if match := _first(_EITHER, texts):
         one, other = _value(f"{match[1]}.{match[2]}", True), _value(match[2], True)
-        questions.append(f"speed: '{match[0]}' is {one:g} rpm, or number {match[1]} at {other:g} rpm?")
-        return one, other
+        asked = f"speed: '{match[0]}' is {one:g} rpm, or number {match[1]} at {other:g} rpm?"
+        return Said(speeds=(one, other), questions=(asked,))
     for match in (m for t in texts for m in _SAID_SPEED.finditer(t)):
         number, k = (match[1], match[2] or match[0].find("krpm") > 0) if match[1] else (match[3], match[4])
         if not match[1] and not k and _value(number) < _LEAST_RPM:
             continue  # 'sp1' is the first spindle, or the first run
-        conditions["speed"] = f"{_value(number, bool(k)):g} rpm"
-        return ()
+        return Said({"speed": f"{_value(number, bool(k)):g} rpm"})
     for match in (m for t in texts for m in _LETTER.finditer(t)):
         digits = match[1] or match[2]
         if not digits.startswith("0") and (len(digits) > 3 or int(digits) % 50 == 0):
-            conditions["speed"] = f"{int(digits)} rpm"
-            return ()
+            return Said({"speed": f"{int(digits)} rpm"})
     if match := _first(_THOUSANDS, texts):
-        conditions["speed"] = f"{_value(match[1], True):g} rpm"
-        guessed.add("speed")
-    return ()
+        return Said({"speed": f"{_value(match[1], True):g} rpm"}, frozenset({"speed"}))
+    return Said()
 
 
-def _feed(texts: Sequence[str], conditions: dict[str, str], questions: list[str]) -> None:
+def _feed(texts: Sequence[str]) -> Said:
+    """The feed; asked where the name has no unit, which its size tells."""
     match = _first(_FEED_UNIT, texts) or _first(_FEED, texts)
     if match is None or (match[1].startswith("0") and len(match[1]) > 1):
-        return
+        return Said()
     value = _value(match[1])
     unit = f"{match[2]}/min" if match[2] else "mm/min" if value >= 100 else "m/min"
-    conditions["feed"] = f"{value:g} {unit}"
-    if not match[2]:
-        questions.append(f"feed in {unit}?")
+    return Said({"feed": f"{value:g} {unit}"}, questions=() if match[2] else (f"feed in {unit}?",))
 
 
-def _air(texts: Sequence[str], conditions: dict[str, str], guessed: set[str], questions: list[str]) -> None:
+def _air(texts: Sequence[str]) -> Said:
+    """The temperature of the air, or its course; degrees of which no word says whose they are are asked."""
     if match := _first(_COURSE, texts):
-        conditions["air"] = f"{_value(match[1]):g} degC to {_value(match[2]):g} degC"
-        guessed.add("air")
-    elif match := _first(_AT, texts):
-        conditions["air"] = f"{_value(match[2]):g} degC"
-    elif (match := _first(_SOME_DEGREES, texts)) and not re.match(r"-?0\d", match[1]):  # '02_C' is number 2 of axis C
-        questions.append(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}")
-    if match := _first(_CONDITIONED, texts):
-        conditions["air_conditioning"] = "off" if match[1] in _WITHOUT else "on"
-        guessed.add("air_conditioning")
+        return Said({"air": f"{_value(match[1]):g} degC to {_value(match[2]):g} degC"}, frozenset({"air"}))
+    if match := _first(_AT, texts):
+        return Said({"air": f"{_value(match[2]):g} degC"})
+    if (match := _first(_SOME_DEGREES, texts)) and not re.match(r"-?0\d", match[1]):  # '02_C' is number 2 of axis C
+        return Said(questions=(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}",))
+    return Said()
 
 
-def _date(texts: Sequence[str], conditions: dict[str, str]) -> str | None:
-    """The date, and with a time of day the moment."""
+def _air_conditioning(texts: Sequence[str]) -> Said:
+    match = _first(_CONDITIONED, texts)
+    if match is None:
+        return Said()
+    return Said({"air_conditioning": "off" if match[1] in _WITHOUT else "on"}, frozenset({"air_conditioning"}))
+
+
+def _date(texts: Sequence[str]) -> Said:
+    """The date, and with a time of day the moment; the days that a date with a year of two digits may be."""
     match = next((m for t in texts if (m := _DATE.search(t)) and m[5]), None) or _first(_DATE, texts)
     if match is not None:
-        conditions["date"] = f"{match[1]}-{match[3]}-{match[4]}"
-        return None if match[5] is None else f"{conditions['date']} {match[5]}:{match[6]}:{match[7] or '00'}"
+        date = f"{match[1]}-{match[3]}-{match[4]}"
+        start = None if match[5] is None else f"{date} {match[5]}:{match[6]}:{match[7] or '00'}"
+        return Said({"date": date}, start=start)
     if match := _first(_DATE_DMY, texts):
-        conditions["date"] = f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}"
-    return None
+        return Said({"date": f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}"})
+    return Said(days=_short_dates(texts))
 
 
 def _short_dates(texts: Sequence[str]) -> tuple[str, ...]:

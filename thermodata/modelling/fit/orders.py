@@ -12,10 +12,10 @@ from typing import Any, cast
 
 import numpy as np
 
-from thermodata.errors import SpecError, UsageError
+from thermodata.errors import UsageError
 from thermodata.modelling.least_squares.coarse import coarse_tests
 from thermodata.modelling.model_file.transfer import MOST, NAME, FreeFunction
-from thermodata.modelling.predictions.left_out import folds, left_out_fit
+from thermodata.modelling.predictions.left_out import Fold, folds, left_out_fit
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, fit_mask
@@ -86,64 +86,97 @@ def choose_orders(
     orders of an arx the driver is tried a step or two late as well. Lags need no sample after sample, so that oe and
     varpro are tried on means of neighbours where there are many samples.
     """
-    term = bound.terms[i]
-    method = term.spec.method or "varpro"
-    some = list(tests) if method == "arx" else coarse_tests(tests, wanted)
-    channel_of = bound.channel_of
-    found = folds(some, channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
-    rows: list[_Trial] = []
-    reasons: list[UsageError] = []
-    found_at: dict[tuple[int, int], FittedResponse] = {}
-
-    def tried(orders: tuple[int, int], delay: int | None) -> _Trial:
-        # a delay of none is chosen as well: what chose it does not ask again
-        trial = with_orders(bound, i, orders, delay or 0 if method == "arx" else None)
-        row = Tried(bound.name, term.id, method, *orders, None, None, None, delay=delay or 0)
-        try:
-            full = identify(
-                trial, some, _start(bound, i, orders, found_at) if method == "oe" else None, method == "varpro"
-            )
-            found_at[orders] = full
-            start = None if method == "arx" else _near(trial, full)
-            total, worst = left_out_fit(found, lambda train: identify(trial, train, start, False))
-        except (UsageError, SpecError) as error:
-            reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
-            return _Trial(replace(row, why=error.what), trial, None)
-        row = replace(
-            row,
-            fit_left_out=_finite(total),
-            fit_worst=_finite(worst),
-            fit_calibration=_finite(free_run_fit(full, some)),
-            why=_unidentified(full, term.id) if method == "varpro" and orders != (1, 1) else None,
-        )
-        return _Trial(row, trial, full)
-
-    for orders in _pairs(method) if term.spec.orders is None else [term.spec.orders]:
-        rows.append(tried(orders, term.spec.delay))
-        if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
+    spec = bound.terms[i].spec
+    search = _Search.of(bound, i, tests, wanted, identify)
+    trials: list[_Trial] = []
+    for orders in _pairs(search.method) if spec.orders is None else [spec.orders]:
+        trials.append(search.tried(orders, spec.delay, trials))
+        if search.method == "varpro" and orders[0] > orders[1] and trials[-1].row.why and trials[-2].row.why:
             break
-    good = [r for r in rows if r.row.why is None]
-    if not good and term.spec.orders is None:
-        raise reasons[0]
-    best = _fewest(good) if good else rows[0]
-    if method == "arx" and term.spec.delay is None:
-        late = [tried((best.row.numerator, best.row.denominator), delay) for delay in range(1, DELAY + 1)]
-        rows += late
+    good = [r for r in trials if r.row.why is None]
+    if not good and spec.orders is None:
+        raise next(r.failed for r in trials if r.failed is not None)
+    best = _fewest(good) if good else trials[0]
+    if search.method == "arx" and spec.delay is None:
+        late = [search.tried((best.row.numerator, best.row.denominator), d, trials) for d in range(1, DELAY + 1)]
+        trials += late
         # a delay costs no coefficient
         best = max([best, *(r for r in late if r.row.why is None)], key=lambda r: _number(r.row.fit_left_out))
     if best.full is None:  # too little to leave any out: orders that are given need no choice
-        return Choice(best.bound, None, tuple(r.row for r in rows))
-    table = tuple(replace(r.row, chosen=r is best) for r in rows)
-    return Choice(best.bound, None if method == "arx" else _near(best.bound, best.full), table)
+        return Choice(best.bound, None, tuple(r.row for r in trials))
+    table = tuple(replace(r.row, chosen=r is best) for r in trials)
+    return Choice(best.bound, None if search.method == "arx" else _near(best.bound, best.full), table)
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """full: fitted to all tests; None where it could not be."""
+    """found: fitted to all tests; failed: why it could not be, there or without some of them."""
 
     row: Tried
     bound: BoundResponse
-    full: FittedResponse | None
+    found: FittedResponse | None
+    failed: UsageError | None = None
+
+    @property
+    def orders(self) -> tuple[int, int]:
+        return self.row.numerator, self.row.denominator
+
+    @property
+    def full(self) -> FittedResponse | None:
+        """Fitted to all tests, and without some of them too."""
+        return None if self.failed is not None else self.found
+
+
+@dataclass(frozen=True)
+class _Search:
+    """One term of a response, and the tests on which its orders are tried. left_out: folds of these."""
+
+    bound: BoundResponse
+    i: int
+    tests: Sequence[TestData]
+    left_out: Sequence[Fold]
+    identify: Identify
+
+    @classmethod
+    def of(
+        cls,
+        bound: BoundResponse,
+        i: int,
+        tests: Sequence[TestData],
+        wanted: tuple[str, ...] | None,
+        identify: Identify,
+    ) -> _Search:
+        some = list(tests) if bound.terms[i].spec.method == "arx" else coarse_tests(tests, wanted)
+        found = folds(some, bound.channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
+        return cls(bound, i, some, found, identify)
+
+    @property
+    def method(self) -> str:
+        return self.bound.terms[self.i].spec.method or "varpro"
+
+    def tried(self, orders: tuple[int, int], delay: int | None, before: Sequence[_Trial]) -> _Trial:
+        """One pair of orders, from what those before it came to."""
+        method, identity = self.method, self.bound.terms[self.i].id
+        # a delay of none is chosen as well: what chose it does not ask again
+        trial = with_orders(self.bound, self.i, orders, delay or 0 if method == "arx" else None)
+        row = Tried(self.bound.name, identity, method, *orders, None, None, None, delay=delay or 0)
+        found_at = {t.orders: t.found for t in before if t.found is not None}
+        near = _start(self.bound, self.i, orders, found_at) if method == "oe" else None
+        full: FittedResponse | None = None
+        try:
+            full = self.identify(trial, self.tests, near, method == "varpro")
+            start = None if method == "arx" else _near(trial, full)
+            total, worst = left_out_fit(self.left_out, lambda train: self.identify(trial, train, start, False))
+        except UsageError as error:
+            return _Trial(replace(row, why=error.what), trial, full, error)
+        row = replace(
+            row,
+            fit_left_out=_finite(total),
+            fit_worst=_finite(worst),
+            fit_calibration=_finite(free_run_fit(full, self.tests)),
+            why=_unidentified(full, identity) if method == "varpro" and orders != (1, 1) else None,
+        )
+        return _Trial(row, trial, full)
 
 
 def _fewest(good: Sequence[_Trial]) -> _Trial:

@@ -60,7 +60,12 @@ class Prediction(OfTests):
         """shape (n, 1), relative to the first predicted value."""
         key = self._key(test)
         if key is None:
-            raise SpecError(f"the prediction file has no test '{test.test}'", expected=", ".join(self.tables))
+            raise SpecError(
+                f"the prediction file has no test '{test.test}'",
+                where=self.file,
+                expected=", ".join(self.tables),
+                got=test.test,
+            )
         return self.tables[key].at(test.t_s).reshape(-1, 1)
 
     def _key(self, test: TestData) -> str | None:

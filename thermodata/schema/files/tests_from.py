@@ -10,13 +10,13 @@ from typing import Any
 from thermodata.archive.members import listed
 from thermodata.archive.patterns import in_archives
 from thermodata.archive.unpacked import cut_off, held
+from thermodata.archive.workbook import check_size
 from thermodata.errors import FormatError, SpecError, ThermodataError, nearest
 from thermodata.schema.files.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.strict.explain import validate
 from thermodata.schema.strict.lines import Document, Place
 from thermodata.schema.strict.refer import inside
 from thermodata.schema.units.quantity import split_value
-from thermodata.workbook_check import check_size
 
 _FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)\}")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from thermodata.calibration.measuring import measuring_names
 from thermodata.calibration.result import CalibrationResult
@@ -15,7 +15,7 @@ from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, Span
 from thermodata.store.tidy.flags.overrule import rules_of
 from thermodata.store.tidy.plan import derive
-from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, SourcePlan, TestPlan
 from thermodata.store.tidy.rows.on_change import BY_HAND
 from thermodata.store.tidy.values.series import Member
 
@@ -34,54 +34,58 @@ def member_key(
     """The key of the tidy files of one stream of a test. Everything that its bytes depend on, and nothing else."""
     # `repr` writes the names of Span, Clock and their fields into the keys: to rename one makes every tidy file anew
     here = [b for b in plan.bound.values() if (b.source, b.stream) == member]
-    used: dict[str, Bound] = {}
-    for bound in here:
-        _collect(plan, bound, used)
     measuring = plan.test.measuring if any(b.channel.quantity in MEASURED for b in here) else None
-    for name in measuring_names(measuring):
-        if name in plan.bound:
-            _collect(plan, plan.bound[name], used)
-    names = {b.name for b in here}
-    rules = [r for r in rules_of(plan.campaign, plan.test.id) if r.channel is None or r.channel in names]
-    members = {(b.source, b.stream) for b in used.values()} | {member}
+    used = _used(plan, here, measuring_names(measuring))
+    members = sorted({(b.source, b.stream) for b in used.values()} | {member})
     parts = [TIDY_VERSION, repr(member), repr(list(columns)), repr(span), repr(measuring)]
-    if rules:
-        parts.append(repr([r.model_dump(mode="json", exclude={"tests"}) for r in rules]))
-    for name in sorted(used):
-        parts.append(texts.of(used[name]))
-        if used[name].channel.quantity in BY_HAND and (beside := plan.step_beside(used[name])):
-            parts.append(repr((name, beside)))
-    for source, stream in sorted(members):
+    parts += _of_rules(plan, {b.name for b in here})
+    parts += _of_channels(plan, used, texts)
+    for source, stream in members:
         if source in plan.sources:
-            source_plan = plan.sources[source]
-            clock = clocks[source]
-            own = {r.path for r in source_plan.streams.get(stream, [])}
-            if otherwise := sorted((k, repr(v)) for k, v in source_plan.parts.items() if k[0] in own):
-                parts.append(repr(otherwise))
-            parts += [
-                source,
-                stream,
-                repr([(r.key, r.path, *_moved(r)) for r in source_plan.streams.get(stream, [])]),
-                repr(
-                    (
-                        clock.offset_ns,
-                        clock.drift_ppm,
-                        clock.base_ns,
-                        clock.suspect,
-                        source_plan.spec.clock.resets,
-                        source_plan.shared,
-                    )
-                ),
-            ]
-    if any(s == SCHEDULE for s, _ in members):
+            parts += _of_stream(plan.sources[source], source, stream, clocks[source])
+    if any(source == SCHEDULE for source, _ in members):
         # the schedule's grid ends with the reference sources
-        parts += [
-            repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws]),
-            json.dumps(plan.test.conditions, sort_keys=True, default=str),
-        ]
-    if any(s in plan.sources and plan.sources[s].shared for s, _ in members):
-        parts.append(repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws]))
+        parts += [_of_reference(plan, clocks), json.dumps(plan.test.conditions, sort_keys=True, default=str)]
+    if any(source in plan.sources and plan.sources[source].shared for source, _ in members):
+        parts.append(_of_reference(plan, clocks))
     return key_of(*parts)
+
+
+def _used(plan: TestPlan, here: Iterable[Bound], measuring: Iterable[str]) -> dict[str, Bound]:
+    """The channels of a stream, and all that they and the rule of what is measured are made from."""
+    used: dict[str, Bound] = {}
+    for bound in (*here, *(plan.bound[name] for name in measuring if name in plan.bound)):
+        _collect(plan, bound, used)
+    return used
+
+
+def _of_rules(plan: TestPlan, names: Set[str]) -> Iterator[str]:
+    """What a person overruled in these channels; nothing where that is nothing."""
+    rules = [r for r in rules_of(plan.campaign, plan.test.id) if r.channel is None or r.channel in names]
+    if rules:
+        yield repr([r.model_dump(mode="json", exclude={"tests"}) for r in rules])
+
+
+def _of_channels(plan: TestPlan, used: Mapping[str, Bound], texts: ChannelTexts) -> Iterator[str]:
+    for name in sorted(used):
+        yield texts.of(used[name])
+        if used[name].channel.quantity in BY_HAND and (beside := plan.step_beside(used[name])):
+            yield repr((name, beside))
+
+
+def _of_stream(plan: SourcePlan, source: str, stream: str, clock: Clock) -> Iterator[str]:
+    """Its raw files, the parts of them that are of this test, and its clock."""
+    raws = plan.streams.get(stream, [])
+    own = {r.path for r in raws}
+    if parts := sorted((k, repr(v)) for k, v in plan.parts.items() if k[0] in own):
+        yield repr(parts)
+    yield from (source, stream, repr([(r.key, r.path, *_moved(r)) for r in raws]))
+    yield repr((clock.offset_ns, clock.drift_ppm, clock.base_ns, clock.suspect, plan.spec.clock.resets, plan.shared))
+
+
+def _of_reference(plan: TestPlan, clocks: Mapping[str, Clock]) -> str:
+    """The raw files and clocks that say when the test ran."""
+    return repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws])
 
 
 def _moved(raw: RawStream) -> tuple[int, ...]:

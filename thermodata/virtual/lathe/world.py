@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -92,13 +92,10 @@ def make_world(
     hidden = _hidden(kind, order, rng, hide)
     thin = thin if kind.base == "either" else kind.base == "thin"
     base = _base(hidden, order, thin)
-    scale = {}
-    for c in (*base, *hidden):
-        size = {s.id: float(np.std(CAUSES[c].shift(s.heat)[row])) for s in course}
-        best = max(size[s.id] for s in course if s.role != "locked")
-        # an axis that rests in all open tests would move a locked one by kilometres
-        best = max(best, max(size.values()) / MOST_LOCKED, 1e-9)
-        scale[c] = float(target[c] * sign[c] * (kind.strength if c in hidden else 1.0) / best)
+    scale = {
+        c: float(target[c] * sign[c] * (kind.strength if c in hidden else 1.0) / _raw_size(c, course, row))
+        for c in (*base, *hidden)
+    }
     sensors = _logged(kind, hidden, base, luck, thin and by_speed)
     noise = np.random.default_rng([seed, 15_487_469])
     decoy_of = None
@@ -108,18 +105,7 @@ def make_world(
     if kind.decoy:
         decoy_of = next(n for n in CAUSES[hidden[0]].sensors if BY_NAME[n].quantity == "temperature")
         sensors, runs = _with_decoy(sensors, runs, decoy_of, hidden[0], noise)
-    spare = (
-        [s.name for s in sensors if s.quantity == "temperature" and s.name not in CAUSES[hidden[0]].sensors]
-        if hidden
-        else []
-    )
-    faults: list[Fault] = []
-    if kind.sensor_fault:
-        runs, broken = blemish(runs, str(noise.choice(spare)), noise)
-        faults.append(broken)
-    if kind.steps:
-        runs, slipped = slip(runs, row, noise)
-        faults += slipped
+    runs, faults = _with_faults(runs, kind, row, [s for s in sensors if not _drives(s, hidden)], noise)
     if kind.clock:
         faults.append(Fault("clock_offset", "", None, late * DT_S, "plc"))
     return World(
@@ -135,6 +121,34 @@ def make_world(
         tuple(runs),
         decoy_of,
     )
+
+
+def _raw_size(cause: str, course: Sequence[Stretch], row: int) -> float:
+    """Standard deviation of a cause's raw shift along an axis in the open test in which it is largest [um]."""
+    size = {s.id: float(np.std(CAUSES[cause].shift(s.heat)[row])) for s in course}
+    best = max(size[s.id] for s in course if s.role != "locked")
+    # an axis that rests in all open tests would move a locked one by kilometres
+    return max(best, max(size.values()) / MOST_LOCKED, 1e-9)
+
+
+def _drives(sensor: Sensor, hidden: tuple[str, ...]) -> bool:
+    """Whether the first hidden cause acts by a sensor."""
+    return bool(hidden) and sensor.name in CAUSES[hidden[0]].sensors
+
+
+def _with_faults(
+    runs: list[Run], kind: Stratum, row: int, sensors: Sequence[Sensor], rng: np.random.Generator
+) -> tuple[list[Run], list[Fault]]:
+    """The runs with what the stratum breaks in values, and what that is. sensors: that may break."""
+    faults: list[Fault] = []
+    if kind.sensor_fault:
+        names = [s.name for s in sensors if s.quantity == "temperature"]
+        runs, broken = blemish(runs, str(rng.choice(names)), rng)
+        faults.append(broken)
+    if kind.steps:
+        runs, slipped = slip(runs, row, rng)
+        faults += slipped
+    return runs, faults
 
 
 def _hidden(kind: Stratum, order: list[str], rng: np.random.Generator, hide: str | None) -> tuple[str, ...]:

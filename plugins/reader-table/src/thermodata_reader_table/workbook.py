@@ -15,6 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from thermodata.archive.workbook import odd_cells
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
@@ -24,7 +25,6 @@ from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
-from thermodata.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns
 from thermodata_reader_table.workbook_related import with_related
 from thermodata_reader_table.workbook_series import taken_apart
@@ -36,7 +36,7 @@ _SMALL = 8_000_000
 
 @dataclass(frozen=True)
 class Book:
-    """sheets: name -> rows, of those that are wanted and hold some. odd: what check_size() counted. percent: sheet ->
+    """sheets: name -> rows, of those that are wanted and hold some. odd: what odd_cells() counted. percent: sheet ->
     column -> numbers that are shown in per cent; from_1904: whether its days count from there, not from 1900."""
 
     sheets: dict[str, list[list[Any]]]
@@ -56,7 +56,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
     import python_calamine
 
     path = Path(name)
-    odd = check_size(path)
+    odd = odd_cells(path)
     try:
         book = python_calamine.CalamineWorkbook.from_path(str(path))
     except Exception as error:  # calamine has many error classes, all of which mean: not this file

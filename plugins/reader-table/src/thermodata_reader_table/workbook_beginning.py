@@ -8,8 +8,8 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from thermodata.archive.workbook import inflate
 from thermodata.errors import FormatError
-from thermodata.workbook_check import inflate
 
 ROWS = 100_000  # of all sheets together
 _LEAST_ROWS, _LEAST_BYTES = 500, 1 << 18  # of each

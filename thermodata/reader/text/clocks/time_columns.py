@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from itertools import pairwise
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence, Set
+from dataclasses import dataclass
+from itertools import islice, pairwise
 
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
@@ -46,60 +46,12 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
 
 def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
     """A date, a date and a time of day, a time of day, numbers under a word for time, or a first column in a unit of
-    time, in this order. FormatError where there is none."""
-    width = len(seen.names)
-
-    filled = [[r[i] for r in seen.rows if r[i] not in ("", None)] for i in range(width)]
-
-    def share(column: int, test: Any, least: float) -> bool:
-        return bool(filled[column]) and mostly(filled[column], test, least, len(filled[column]))
-
-    words = [i for i in range(width) if i in likely or is_time_header(seen.names[i])]
-    dates = [i for i in range(width) if share(i, is_dated, 0.8)]
-    dashed = [i for i in dates if are_dashed_clocks(filled[i])]  # beside a date they are times of day
-    dates = [i for i in dates if i not in dashed] or dates
-    clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
-    of_day = [i for i in words if since_midnight(seen.names[i]) is not None and share(i, is_number, 0.6)]
-    standing = _standing(
-        {i: [c for c in filled[i] if is_dated(c)] for i in dates},
-        [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
-    )
-    numbers = [i for i in words if share(i, is_number, 0.6)]
-    counting = any(_numbers_go_on(filled[i]) for i in numbers)
-    if counting and not clocks and not of_day:
-        standing |= {i for i in dates if _days_of_many_rows(filled[i])}
-    if len(standing) == len(dates) and not (counting or _parts_go_on(seen)):
-        standing = set()
-    dates = [i for i in dates if i not in standing]
-    if dates:
-        of_hours = [i for i in dates if tell_the_hour(filled[i])]
-        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, seen)
-        sample = filled[first][0]
-        has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or tell_the_hour(filled[first])
-        found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
-        if not clocks and not tell_the_hour(filled[first]):
-            found = (first, *columns_of_clock(first, seen))
-        whole = with_parts(found, seen)
-        if whole != found:
-            return whole
-        return (*found, *_parts_of_a_second(found[-1] + 1, seen, seen.column(found[-1])))
-    if clocks:
-        return with_parts((clocks[0],), seen)
-    if numbers:
-        # a "t" may be many things beside a column that is called time
-        return (min(numbers, key=lambda i: split_unit(seen.names[i])[0].strip(" .:") == "t"),)
-    if (seen.units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
-        return (0,)
-    spans = [
-        i
-        for i in range(width)
-        if (is_time_header(seen.names[i]) or not _named(seen.names[i])) and _are_rising(filled[i])
-    ]
-    if spans:
-        return (spans[0],)
-    damaged = [i for i in range(width) if i not in standing and share(i, is_dated, 0.3)]
-    if damaged:
-        return (damaged[0],)
+    time, in this order; then spans of time, and dates of which many are damaged. likely: columns that are taken to be
+    called a time. FormatError where there is none."""
+    columns = _looked_at(seen, likely)
+    for way in (_by_dates, _by_clocks, _by_numbers, _by_first_unit, _by_spans, _by_damaged_dates):
+        if found := way(columns):
+            return found
     raise FormatError(
         "no time column found",
         where=seen.where,
@@ -107,6 +59,93 @@ def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Columns:
+    """What the columns of a table look like. filled: the cells of each that hold something; words: those that are
+    called a time; dates: those of dates that go on; standing: those of dates that do not tell its rows apart; clocks:
+    of times of day; numbers: of those that are called a time."""
+
+    seen: FirstRows
+    filled: Sequence[Sequence[Cell]]
+    words: Sequence[int]
+    dates: Sequence[int]
+    standing: Set[int]
+    clocks: Sequence[int]
+    numbers: Sequence[int]
+
+
+def _looked_at(seen: FirstRows, likely: tuple[int, ...]) -> _Columns:
+    places = range(len(seen.names))
+    filled = [[r[i] for r in seen.rows if r[i] not in ("", None)] for i in places]
+    words = [i for i in places if i in likely or is_time_header(seen.names[i])]
+    dates = [i for i in places if _are(filled[i], is_dated, 0.8)]
+    dashed = [i for i in dates if are_dashed_clocks(filled[i])]  # beside a date they are times of day
+    dates = [i for i in dates if i not in dashed] or dates
+    clocks = [i for i in places if _are(filled[i], is_clocked, 0.8)]
+    of_day = [i for i in words if since_midnight(seen.names[i]) is not None and _are(filled[i], is_number, 0.6)]
+    standing = _standing(
+        {i: [c for c in filled[i] if is_dated(c)] for i in dates},
+        [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
+    )
+    numbers = [i for i in words if _are(filled[i], is_number, 0.6)]
+    counting = any(_numbers_go_on(filled[i]) for i in numbers)
+    if counting and not clocks and not of_day:
+        standing |= {i for i in dates if _days_of_many_rows(filled[i])}
+    if len(standing) == len(dates) and not (counting or _parts_go_on(seen)):
+        standing = set()
+    return _Columns(seen, filled, words, [i for i in dates if i not in standing], standing, clocks, numbers)
+
+
+def _are(cells: Sequence[Cell], test: Callable[[Cell], bool], least: float) -> bool:
+    """Whether there are cells, and at least a share of them pass a test."""
+    return bool(cells) and mostly(cells, test, least, len(cells))
+
+
+def _by_dates(of: _Columns) -> tuple[int, ...]:
+    """A date, with a time of day or parts of one beside it where it has none."""
+    if not of.dates:
+        return ()
+    seen, filled, clocks = of.seen, of.filled, of.clocks
+    of_hours = [i for i in of.dates if tell_the_hour(filled[i])]
+    first = zoned_beside(next((i for i in of.dates if i in of.words), of.dates[0]), of_hours, seen)
+    sample = filled[first][0]
+    has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or tell_the_hour(filled[first])
+    found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
+    if not clocks and not tell_the_hour(filled[first]):
+        found = (first, *columns_of_clock(first, seen))
+    whole = with_parts(found, seen)
+    if whole != found:
+        return whole
+    return (*found, *_parts_of_a_second(found[-1] + 1, seen, seen.column(found[-1])))
+
+
+def _by_clocks(of: _Columns) -> tuple[int, ...]:
+    return with_parts((of.clocks[0],), of.seen) if of.clocks else ()
+
+
+def _by_numbers(of: _Columns) -> tuple[int, ...]:
+    """Numbers under a word for time; a "t" may be many things beside a column that is called time."""
+    if not of.numbers:
+        return ()
+    return (min(of.numbers, key=lambda i: split_unit(of.seen.names[i])[0].strip(" .:") == "t"),)
+
+
+def _by_first_unit(of: _Columns) -> tuple[int, ...]:
+    in_time = (of.seen.units[0] or "").strip().lower() in SECONDS
+    return (0,) if in_time and _are(of.filled[0], is_number, 0.6) else ()
+
+
+def _by_spans(of: _Columns) -> tuple[int, ...]:
+    names = of.seen.names
+    called = (i for i in range(len(names)) if is_time_header(names[i]) or not _named(names[i]))
+    return tuple(islice((i for i in called if _are_rising(of.filled[i])), 1))
+
+
+def _by_damaged_dates(of: _Columns) -> tuple[int, ...]:
+    places = (i for i in range(len(of.seen.names)) if i not in of.standing)
+    return tuple(islice((i for i in places if _are(of.filled[i], is_dated, 0.3)), 1))
 
 
 def _named(header: str) -> bool:

@@ -105,23 +105,32 @@ def scaling(layers: Sequence[Mapping[str, Any]], where: str) -> Scaling | None:
     return None
 
 
-def channels(
-    index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str], notes: list[str], partly: list[str]
-) -> dict[str, list[Channel]]:
-    """Group -> its channels, in the file's order. partly: takes a sentence for each that is left out."""
+@dataclass(frozen=True, slots=True)
+class Channels:
+    """of_group: group -> its channels, in the file's order; notes: on what they are; left_out: a sentence for each that
+    is."""
+
+    of_group: Mapping[str, list[Channel]]
+    notes: Sequence[str]
+    left_out: Sequence[str]
+
+
+def channels(index: Index, cols: Mapping[str, list[Column]], file: str, unscaled: set[str]) -> Channels:
+    """The channels of a file. unscaled: names of those whose raw numbers are wanted."""
     types = {path: found.type for layout in index.layouts for path, found in layout.objects}
     groups: dict[str, list[Channel]] = {}
-    maker = _Maker(index, file, unscaled, notes)
+    left_out: list[str] = []
+    maker = _Maker(index, file, unscaled)
     for path, found in cols.items():
         group, name = names(path)
         full = f"{group}/{name}" if group or not name.startswith("/") else name
         if (change := _new_meaning(index, path, group, full in unscaled or name in unscaled)) is not None:
-            partly.append(f"{full} is left out: within the file it changes its {change}; split the file there")
+            left_out.append(f"{full} is left out: within the file it changes its {change}; split the file there")
             continue
         if not group and name == path:
-            notes.append(f"{path[:80]}: not the path of a channel in a group")
+            maker.notes.append(f"{path[:80]}: not the path of a channel in a group")
         groups.setdefault(group, []).extend(maker.channels(group, name, full, found, types[path]))
-    return groups
+    return Channels(groups, maker.notes, left_out)
 
 
 def _new_meaning(index: Index, path: str, group: str, unscaled: bool) -> str | None:
@@ -138,10 +147,11 @@ def _path_of(group: str) -> str:
 
 
 class _Maker:
-    """Makes channels. What equal properties make of a channel is made once: a file may have 100,000."""
+    """Makes channels, and notes on them. What equal properties make is made once: a file may have 100,000 channels."""
 
-    def __init__(self, index: Index, file: str, unscaled: set[str], notes: list[str]) -> None:
-        self._index, self._file, self._unscaled, self._notes = index, file, unscaled, notes
+    def __init__(self, index: Index, file: str, unscaled: set[str]) -> None:
+        self._index, self._file, self._unscaled = index, file, unscaled
+        self.notes: list[str] = []
         self._clocks: dict[Any, Clock | None] = {}
         self._ended: dict[tuple[int, int], bool] = {}
         self._texts: dict[int, dict[str, str]] = {}
@@ -151,7 +161,7 @@ class _Maker:
 
     def channels(self, group: str, short: str, full: str, found: list[Column], kind: int) -> list[Channel]:
         """The channels of one object of the file: one, or the two parts of complex numbers."""
-        notes = self._notes
+        notes = self.notes
         own = self._index.properties.get(found[0].path, _NONE)
         clock = clock_of(self._index, found[0], own, self._clocks)
         if clock is not None and not _ends(clock, max(found[0].length, found[0].planned), self._ended):

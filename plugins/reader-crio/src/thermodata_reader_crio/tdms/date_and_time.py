@@ -34,14 +34,13 @@ class DateAndTime:
         """The one that stands for the time of its group, and the other."""
         return self.date, self.time
 
-    def time_channel(self, file: BinaryIO, notes: list[str]) -> TimeChannel:
+    def time_channel(self, file: BinaryIO) -> TimeChannel:
         """The times of all rows, as those of the channel of dates."""
         rows = min(self.date.length, self.time.length)
         days, clocks = (_texts(file, c, rows) for c in self.members)
         where = f"{self.date.signal.name}, {self.time.signal.name}"
         told = times_of_pairs(days, clocks, self.source.timezone, self.form, where)
-        notes.extend(n for n in told.notes if n not in notes)
-        return TimeChannel(self.date, None, told)
+        return TimeChannel(self.date, None, told, tuple(told.notes))
 
 
 def date_and_time(members: Sequence[Channel], source: Source, file: BinaryIO) -> DateAndTime | None:

@@ -57,12 +57,13 @@ def _opened(path: Path, source: Source, sheet: int | str | None) -> File:
     cols, partly = columns(index)
     if sheet is not None:
         cols = columns_of(cols, sheet, path.name)
-    notes = list(index.notes)
-    groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes, partly)
+    made = channels(index, cols, path.name, set(source.options.get("unscaled", ())))
+    notes = [*index.notes, *made.notes]
+    partly += made.left_out
     taken: dict[str, int] = {}
     found: list[Stream] = []
     with path.open("rb") as file:
-        for group, members in groups.items():
+        for group, members in made.of_group.items():
             if sheet is not None:
                 group, members = "", without_its_name(group, members)
             found += streams_of(group, members, index, source, notes, taken, file)

@@ -71,7 +71,7 @@ def streams_of(
     file: for the first values of channels that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    times = _Times(filled, index, source, file, notes)
+    times = _Times(filled, index, source, file)
     begins = min((_first_piece(c) for c in filled if c.length), default=0)
     step_s = _seconds(source.options.get("increment"))
     measured = [c for c in filled if not times.hold(c)]
@@ -80,9 +80,11 @@ def streams_of(
     for part in _parts(measured, index):
         name = _name(group, taken)
         own = tuple([c.in_stream(name) for c in part])
-        time = None if part[0].clock is not None else times.of_rows(part[0])
-        if time is not None:
-            yield Stream(name, own, None, times.taken(time))
+        holding = None if part[0].clock is not None else times.of_rows(part[0])
+        if holding is not None:
+            time = times.taken(holding)
+            notes.extend(n for n in time.notes if n not in notes)
+            yield Stream(name, own, None, time)
             continue
         clock = _clock(part, index, step_s, name, notes)
         if part[0].length and _first_piece(part[0]) > begins:
@@ -91,14 +93,16 @@ def streams_of(
     for c in times.left():
         # a time channel beside waveforms is a signal like any other
         name = _name(group, taken)
-        yield Stream(name, (c.in_stream(name),), None, times.taken(c))
+        time = times.taken(c)
+        notes.extend(n for n in time.notes if n not in notes)
+        yield Stream(name, (c.in_stream(name),), None, time)
 
 
 class _Times:
     """The channels of a group that hold times, and which of them are the time of a stream already."""
 
-    def __init__(self, filled: list[Channel], index: Index, source: Source, file: BinaryIO, notes: list[str]) -> None:
-        self._index, self._source, self._file, self._notes = index, source, file, notes
+    def __init__(self, filled: list[Channel], index: Index, source: Source, file: BinaryIO) -> None:
+        self._index, self._source, self._file = index, source, file
         # two channels that tell a time together stand for its first one
         self._pair = weeks_of_gps(filled, source, file) or date_and_time(filled, source, file)
         self._channels = time_channels(filled, source, file) if self._pair is None else [self._pair.members[0]]
@@ -118,8 +122,8 @@ class _Times:
         """One of them as the time of a stream."""
         self._taken.add(id(time))
         if self._pair is not None:
-            return self._pair.time_channel(self._file, self._notes)
-        return time_channel(time, self._file, self._source, self._notes, self._above)
+            return self._pair.time_channel(self._file)
+        return time_channel(time, self._file, self._source, self._above)
 
     def left(self) -> list[Channel]:
         """Those that are the time of no stream."""

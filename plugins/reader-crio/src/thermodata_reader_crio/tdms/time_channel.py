@@ -33,11 +33,12 @@ _LOOKED_AT = 100  # rows of a channel of text
 @dataclass(frozen=True, eq=False)
 class TimeChannel:
     """unit: in which the channel counts, from a date or from the recording's start; None for timestamps. told: the
-    times of all rows where it holds text, or counts in the time of the place."""
+    times of all rows where it holds text, or counts in the time of the place. notes: on how it was read."""
 
     channel: Channel
     unit: str | None
     told: Stamps | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def absolute(self) -> bool:
@@ -106,9 +107,7 @@ def _hints_at_scale(channel: Channel, file: BinaryIO) -> bool:
     return bool((np.diff(first) > 0).all()) and scale_question(channel.short, first, "") is not None
 
 
-def time_channel(
-    channel: Channel, file: BinaryIO, source: Source, notes: list[str], above: Sequence[Mapping[str, Any]]
-) -> TimeChannel:
+def time_channel(channel: Channel, file: BinaryIO, source: Source, above: Sequence[Mapping[str, Any]]) -> TimeChannel:
     """What a time channel counts in, by its unit, by what it, its group or the file (`above`) says, and by its first
     values. FormatError, QuestionError: it holds text that is no time, or one that may be read in several ways, or it is
     open what it counts from."""
@@ -118,51 +117,50 @@ def time_channel(
     if channel.signal.dtype == "str":
         cells = [str(c).strip() for c in read(file, list(channel.columns), 0, channel.length)[0]]
         told = times_of_texts(cells, source.timezone, _declared(source, "format"), name)
-    else:
-        unit = _unit_of(channel, file, _declared(source, "unit"), notes, above)
+        return TimeChannel(channel, None, told, tuple(told.notes))
+    unit, notes = _unit_of(channel, file, _declared(source, "unit"), above)
 
-        def load(start: int, stop: int) -> Array:
-            return read(file, list(channel.columns), start, stop)[0]
+    def load(start: int, stop: int) -> Array:
+        return read(file, list(channel.columns), start, stop)[0]
 
-        # the order of all rows tells the hour that repeats, and where a counter is full
-        if not (EPOCHS[unit].local if unit in EPOCHS else may_begin_anew(load, channel.length)):
-            return TimeChannel(channel, unit)
-        told = times_of_numbers(load(0, channel.length), unit, source.timezone, name)
-    notes.extend(n for n in told.notes if n not in notes)
-    return TimeChannel(channel, None, told)
+    # the order of all rows tells the hour that repeats, and where a counter is full
+    if not (EPOCHS[unit].local if unit in EPOCHS else may_begin_anew(load, channel.length)):
+        return TimeChannel(channel, unit, notes=tuple(notes))
+    told = times_of_numbers(load(0, channel.length), unit, source.timezone, name)
+    return TimeChannel(channel, None, told, (*notes, *told.notes))
 
 
 def _unit_of(
-    channel: Channel, file: BinaryIO, declared: str | None, notes: list[str], above: Sequence[Mapping[str, Any]]
-) -> str:
+    channel: Channel, file: BinaryIO, declared: str | None, above: Sequence[Mapping[str, Any]]
+) -> tuple[str, list[str]]:
+    """(what a channel of numbers counts in, notes on it)."""
     name, short = channel.signal.name, channel.short
     if declared is not None:
-        return check_unit(str(declared), name)
+        return check_unit(str(declared), name), []
     said = channel.signal.unit or split_unit(short)[1]
     written = next((text for text in (said, short) if text and (text is said or count_in(text))), None)
     written = written if written is not None and known_unit(written) is not None else unit_of_time(short)
     first = _first(channel, file)
     layers = [{k: str(v) for k, v in layer.items()} for layer in (channel.signal.properties, *above)]
-    stated, told = counted_from(short, first, written or "s", layers, name)
-    notes.extend(told)
+    stated, notes = counted_from(short, first, written or "s", layers, name)
     if stated is not None:
-        return stated
+        return stated, notes
     if (asked := scale_question(short, first, name, unit=written)) is not None:
         raise asked
     known = known_unit(written or "s") or "s"
-    if known in SECONDS and (epoch := _by_size(first * SECONDS[known], name, notes)) is not None:
-        return check_unit(f"{_plain(known)} since {epoch}", name)
+    if known in SECONDS and (year := _by_size(first * SECONDS[known])) is not None:
+        as_labview = ", as LabVIEW counts" if year == 1904 else ""
+        taken = f"{name}: its values are taken as seconds since {year} UTC{as_labview}"
+        return check_unit(f"{_plain(known)} since {year}-01-01", name), [*notes, taken]
     ask_what_counts(short, first, written or "s", name)
-    return known
+    return known, notes
 
 
-def _by_size(first_s: Float1D, name: str, notes: list[str]) -> str | None:
+def _by_size(first_s: Float1D) -> int | None:
     """The year that seconds are counted from, where they can be of no other."""
     for year, (low, high) in ((1904, LABVIEW_SECONDS), (1970, UNIX_SECONDS)):
         if first_s.size and low <= first_s.min() and first_s.max() <= high:
-            as_labview = ", as LabVIEW counts" if year == 1904 else ""
-            notes.append(f"{name}: its values are taken as seconds since {year} UTC{as_labview}")
-            return f"{year}-01-01"
+            return year
     return None
 
 

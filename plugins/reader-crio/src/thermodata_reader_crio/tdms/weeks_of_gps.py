@@ -33,7 +33,7 @@ class WeeksOfGps:
         """The one that stands for the time of its group, and the other."""
         return self.week, self.in_week
 
-    def time_channel(self, file: BinaryIO, notes: list[str]) -> TimeChannel:
+    def time_channel(self, file: BinaryIO) -> TimeChannel:
         """The times of all rows, as those of the channel of weeks."""
         rows = min(self.week.length, self.in_week.length)
         weeks, in_weeks = (read(file, list(c.columns), 0, rows)[0] for c in (self.week, self.in_week))

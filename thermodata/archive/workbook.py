@@ -7,6 +7,7 @@ import re
 import struct
 import zipfile
 import zlib
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -34,12 +35,46 @@ _ODD = {
 }
 
 
-def check_size(path: Path) -> dict[str, int]:
-    """How many cells and rows of all sheets are of each kind of _ODD.
-
-    FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
+def check_size(path: Path) -> None:
+    """FormatError for a workbook that is no ZIP, or whose parts unpack to more than 1 GiB (whatever their headers
     say), or whose sheets have more than MAX_ROWS rows, or whose cells span an absurd area: a reader of
     it would take all memory."""
+    odd_cells(path)
+
+
+def odd_cells(path: Path) -> dict[str, int]:
+    """How many cells and rows of all sheets are of each kind of _ODD. FormatError as of `check_size`."""
+    members = _members(path)
+    odd, unpacked = Counter(dict.fromkeys(_ODD, 0)), 0
+    with path.open("rb") as file:
+        _check_rows(file, members, path)
+        for member in members:
+            where = f"{path.name} {member.filename}"
+            sheet = _Sheet() if _is_sheet(member) else None
+            for part in inflate(file, member, path):
+                unpacked += len(part)
+                if unpacked > MAX_UNPACKED:
+                    raise FormatError(
+                        "workbook unpacks to more than 1 GiB",
+                        where=where,
+                        expected="a log of reasonable size",
+                        got=f"{path.stat().st_size} bytes packed",
+                        hint="export it as CSV or Parquet",
+                    )
+                if sheet is not None:
+                    sheet.add(part)
+            if sheet is not None:
+                sheet.check(where)
+                odd.update(sheet.odd)
+    return dict(odd)
+
+
+def _is_sheet(member: zipfile.ZipInfo) -> bool:
+    return member.filename.startswith("xl/worksheets/")
+
+
+def _members(path: Path) -> list[zipfile.ZipInfo]:
+    """The parts of a workbook. FormatError for what is none."""
     try:
         with zipfile.ZipFile(path) as archive:
             members = archive.infolist()
@@ -56,30 +91,7 @@ def check_size(path: Path) -> dict[str, int]:
             got=f"a ZIP archive of {', '.join(names)}",
             hint="unpack it, and name the files in it",
         )
-    unpacked, odd = 0, dict.fromkeys(_ODD, 0)
-    with path.open("rb") as file:
-        _check_rows(file, members, path)
-        for member in members:
-            sheet = _Extent() if member.filename.startswith("xl/worksheets/") else None
-            rest = b""
-            for part in inflate(file, member, path):
-                unpacked += len(part)
-                if unpacked > MAX_UNPACKED:
-                    raise FormatError(
-                        "workbook unpacks to more than 1 GiB",
-                        where=f"{path.name} {member.filename}",
-                        expected="a log of reasonable size",
-                        got=f"{path.stat().st_size} bytes packed",
-                        hint="export it as CSV or Parquet",
-                    )
-                if sheet is not None:
-                    for kind, pattern in _ODD.items():
-                        odd[kind] += len(pattern.findall(rest + part)) - len(pattern.findall(rest))
-                    sheet.add(rest + part)
-                    rest = part[-200:]
-            if sheet is not None:
-                sheet.check(f"{path.name} {member.filename}")
-    return odd
+    return members
 
 
 def _check_rows(file: Any, members: list[zipfile.ZipInfo], path: Path) -> None:
@@ -87,7 +99,7 @@ def _check_rows(file: Any, members: list[zipfile.ZipInfo], path: Path) -> None:
     rows = unpacked = 0
     for member in members:
         rest = b""
-        for part in inflate(file, member, path) if member.filename.startswith("xl/worksheets/") else ():
+        for part in inflate(file, member, path) if _is_sheet(member) else ():
             text = rest + part
             rows += text.count(b"<row") + text.count(b":row") // 2  # a row with a prefix: begun and ended
             rest = part[-3:]
@@ -104,13 +116,19 @@ def _check_rows(file: Any, members: list[zipfile.ZipInfo], path: Path) -> None:
                 return  # told where all parts are added up
 
 
-class _Extent:
-    """How far the cells of a sheet reach, by what they and their rows say."""
+class _Sheet:
+    """How far the cells of a sheet reach, by what they and their rows say, and how many are odd."""
 
     def __init__(self) -> None:
         self.right = self.bottom = self.rows = self.count = self.unplaced = 0
+        self.odd: Counter[str] = Counter()
+        self._rest = b""  # the end of the part before, in which a cell may begin
 
-    def add(self, text: bytes) -> None:
+    def add(self, part: bytes) -> None:
+        text = self._rest + part
+        for kind, pattern in _ODD.items():
+            self.odd[kind] += len(pattern.findall(text)) - len(pattern.findall(self._rest))
+        self._rest = part[-200:]
         cells = _CELL.findall(text)
         self.count += len(cells)
         self.unplaced += max(0, len(_ANY_CELL.findall(text)) - len(cells))

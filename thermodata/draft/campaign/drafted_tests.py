@@ -1,0 +1,106 @@
+"""The tests as a draft has them: kind and conditions of each by its name, its files, a table and a note beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from thermodata.draft.campaign.parts import DraftTest
+from thermodata.draft.courses.kinds import Kind, kind_of
+from thermodata.draft.courses.measuring import rule_of
+from thermodata.draft.courses.warm import warm_starts
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.file_copies import other_versions
+from thermodata.draft.folder.group import files_of
+from thermodata.draft.folder.listed_times import ListedTime
+from thermodata.draft.folder.notes import Note, notes_of
+from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.table import TestTable
+from thermodata.draft.probes.jump_within import window_behind_jumps
+from thermodata.draft.times.beside_list import not_as_listed, start_listed
+from thermodata.draft.times.block_windows import window_question
+from thermodata.draft.times.clocks import Named
+from thermodata.draft.words.roles import said_by_list
+
+
+@dataclass(frozen=True, slots=True)
+class _Beside:
+    """What is known of a test beside its files. listed: its row of the table of tests; began: when it began by that;
+    warm: the doubt that it began at rest; version: a log that this one may be another version of; otherwise: what its
+    logs say of when it ran that the table does not."""
+
+    listed: Mapping[str, str]
+    began: ListedTime | None
+    note: Note | None
+    warm: str | None
+    version: RawFile | None
+    otherwise: Sequence[str]
+
+
+def drafted_tests(
+    folder: Path,
+    groups: Sequence[Group],
+    table: TestTable | None,
+    keyed: Mapping[str, Named],
+    texts: Sequence[str],
+) -> tuple[DraftTest, ...]:
+    """All tests of a folder. keyed: source -> its channels, by (stream, signal) of the files; texts: files that may
+    say what tests are."""
+    ids = list(dict.fromkeys(t for g in groups for t in g.tests))
+    recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
+    named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
+    rows, times = (table.rows, table.times) if table else ({}, {})
+    notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
+    warm = warm_starts(recordings, named)
+    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    otherwise = not_as_listed(recordings, times)
+    beside = {
+        t: _Beside(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), otherwise.get(t, ()))
+        for t in ids
+    }
+    return tuple(_drafted(t, recordings[t], groups, named, beside[t]) for t in ids)
+
+
+def _drafted(
+    test: str, files: Sequence[RawFile], groups: Sequence[Group], named: Mapping[int, Named], beside: _Beside
+) -> DraftTest:
+    listed, version = beside.listed, beside.version
+    kind = kind_of(test, files, listed)
+    asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
+    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([beside.warm] if beside.warm else []), *asked]
+    if (role := said_by_list(listed)) is not None:
+        kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
+    for key, value in listed.items():
+        if key in conditions and conditions[key].split()[0] != value.split()[0]:
+            doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
+            continue
+        conditions[key] = value
+    start, began = start_listed(files, beside.began)
+    kind = replace(kind, start=start) if start is not None and kind.start is None else kind
+    doubts += [*filter(None, [began]), *beside.otherwise]
+    if beside.note is not None:
+        kind, conditions, more = _with_note(kind, conditions, beside.note)
+        doubts += more
+    own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
+    block = next((f.block for f in files if f.block is not None), None)
+    window = None if block is None else block.window
+    if block is not None and block.said is not None:
+        doubts.append(f"window: {block.said}; history: recording where it does not begin at rest")
+    if window is not None and len(files) > 1:
+        doubts.append(window_question(files))
+    if window is None and (jumps := window_behind_jumps(files)) is not None:
+        doubts.append(jumps)
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
+
+
+def _with_note(kind: Kind, conditions: Mapping[str, str], note: Note) -> tuple[Kind, dict[str, str], list[str]]:
+    """(the kind with what a note says of its test in its comment, the conditions with those that it adds, doubts)."""
+    told = {key: value for key, value in note.conditions.items() if key not in conditions}
+    doubts = list[str]()
+    for key, value in note.conditions.items():
+        if key not in told and conditions[key].split()[0].casefold() != value.split()[0].casefold():
+            doubts.append(f"{key}: {note.file} says {value}, and {conditions[key]} is taken")
+    comments = [f"{', '.join(told)} guess: {note.file}" if told else "", note.comment()]
+    kind = replace(kind, comment="; ".join(filter(None, (kind.comment, *comments))))
+    return kind, {**conditions, **told}, doubts
