@@ -135,7 +135,7 @@ def mended_clocks(groups: Sequence[Group]) -> list[str]:
 
 
 def _undated(file: RawFile) -> bool:
-    return file.recording.clock == "relative" and file.recording.start_ns is None
+    return file.recording.is_undated
 
 
 def _counts_from(group: Group) -> dict[str, int]:
