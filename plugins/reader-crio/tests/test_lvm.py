@@ -281,3 +281,48 @@ def test_every_row_carries_its_line(tmp_path: Path) -> None:
     assert block.at.tolist() == [21, 24]
     assert Reader().locate(path, PRAGUE, "data", 1) == "line 24"
     assert Reader().locate(path, PRAGUE, "data", 2) == "row 3"
+
+
+def reordered(*units: tuple[str, str], names: tuple[str, str] = ("b", "a")) -> str:
+    """Three packets of two rows of a and b; the second names them in another order."""
+    parts = []
+    for k, (said, rows, own) in enumerate(
+        zip(
+            (("a", "b"), names, ("a", "b")),
+            ("\t1\t20\n\t2\t21\n", "\t22\t3\n\t23\t4\n", "\t5\t24\n\t6\t25\n"),
+            units,
+            strict=True,
+        )
+    ):
+        heading = packet(list(said), start=f"08:00:0{k},0", x="X_Value\t" + "\t".join(said))
+        heading = heading.replace("Samples\t3\t3", "Samples\t2\t2")
+        parts.append(heading.replace("Y_Unit_Label\tV\tV", "Y_Unit_Label\t" + "\t".join(own)) + rows)
+    return head("No", "Yes") + "".join(parts)
+
+
+def test_channels_in_another_order_are_the_same(tmp_path: Path) -> None:
+    data = read(tmp_path, reordered(("mm", "Deg C"), ("Deg C", "mm"), ("mm", "Deg C")))
+    assert not data.losses
+    assert list(data.t_ns) == ["data"]
+    assert data.values["data", "a"].tolist() == [1, 2, 3, 4, 5, 6]
+    assert data.values["data", "b"].tolist() == [20, 21, 22, 23, 24, 25]
+
+
+def test_a_later_unit_is_converted_to_the_first(tmp_path: Path) -> None:
+    data = read(tmp_path, reordered(("mm", "Deg C"), ("Deg C", "mm"), ("um", "Deg F")))
+    assert not data.losses
+    assert [s.unit for s in data.recording.signals[:2]] == ["mm", "Deg C"]
+    np.testing.assert_allclose(data.values["data", "a"], [1, 2, 3, 4, 0.005, 0.006])
+    np.testing.assert_allclose(data.values["data", "b"], [20, 21, 22, 23, -40 / 9, -35 / 9], atol=1e-9)
+    said = [n for n in data.recording.notes if "its unit changes" in n]
+    assert len(said) == 2
+    assert all(n.endswith(": converted") for n in said)
+
+
+def test_a_later_unit_of_another_quantity_leaves_the_channel_out_from_there(tmp_path: Path) -> None:
+    data = read(tmp_path, reordered(("mm", "V"), ("V", "mm"), ("V", "")))
+    (loss,) = data.losses
+    assert loss.reason == "a: its unit changes from 'mm' to 'V': left out from there; split the file there"
+    np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3, 4, np.nan, np.nan])
+    assert data.values["data", "b"].tolist() == [20, 21, 22, 23, 24, 25], "a heading without a unit means the same"
+    assert data.flags["data", "a"].tolist() == [0, 0, 0, 0, Flag.NOT_MEASURING, Flag.NOT_MEASURING]

@@ -72,17 +72,20 @@ class _Reading:
         self.name, self.header, self.packet, self.streams, self.source = name, header, packet, streams, source
         self.into: PacketRows | None = None
         for group in streams.groups(packet):
-            streams.of(packet, group)  # named in the order of the headings, whether rows follow or not
+            # named, and their units taken, in the order of the headings, whether rows follow or not
+            streams.units.changed(streams.of(packet, group), packet, group)
 
     def begin(self, part: RowPart, pool: Executor) -> _Parsing | None:
         """Has lines parsed, while what came before them is used."""
-        data, losses = part.data, []
+        data = part.data
+        losses: list[Loss] = []
         if self.into is None:
             if not data.strip():
                 return None
             times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.source, [])
             grid = grid_of(self.header, self.packet, decimal_of(data, self.header, self.packet, []))
             self.into = PacketRows(self.name, self.packet, self.streams, times, grid, self.source)
+            losses += self.into.left_out()
         if not part.ended:
             data, cut = without_cut_line(data, self.header.separator)
             if cut:
