@@ -326,3 +326,27 @@ def test_a_later_unit_of_another_quantity_leaves_the_channel_out_from_there(tmp_
     np.testing.assert_array_equal(data.values["data", "a"], [1, 2, 3, 4, np.nan, np.nan])
     assert data.values["data", "b"].tolist() == [20, 21, 22, 23, 24, 25], "a heading without a unit means the same"
     assert data.flags["data", "a"].tolist() == [0, 0, 0, 0, Flag.NOT_MEASURING, Flag.NOT_MEASURING]
+
+
+@pytest.mark.parametrize(
+    "starts",
+    [
+        ("00:30", "01:00", "01:30", "02:00", "02:30", "02:00", "02:30", "03:00"),
+        ("01:10", "02:10", "02:10", "03:10", "04:10", "05:10"),
+        ("01:50", "02:00", "02:10", "02:20", "02:30", "02:40", "02:50", "02:05", "02:15", "03:00"),  # one is lost
+    ],
+)
+def test_packets_through_the_end_of_summer_time_follow_each_other(tmp_path: Path, starts: tuple[str, ...]) -> None:
+    """Each heading tells local time; together they tell the pass of the hour that repeats."""
+    packets = [packet(["a"], x="X_Value\ta", start=f"{s}:00,0") + "0,0\t1\n0,5\t2\n1,0\t3\n" for s in starts]
+    text = (head("One", "Yes") + "".join(packets)).replace("2026/03/01", "2026/10/25")
+    data = read(tmp_path, text)
+    assert not data.losses
+    local = np.array([np.datetime64(f"2026-10-25T{s}") for s in starts])
+    later = 1 + int(np.argmax(np.diff(local.astype(np.int64)) <= 0))
+    utc = local - np.where(np.arange(len(starts)) < later, 2, 1) * np.timedelta64(1, "h")
+    assert data.t_ns["data"][::3].tolist() == utc.astype("datetime64[ns]").astype(np.int64).tolist()
+    assert data.recording.start_ns == data.t_ns["data"][0]
+    (said,) = [n for n in data.recording.notes if "the hour that repeats" in n]
+    assert "starts in its first pass" in said
+    assert "guess" not in said

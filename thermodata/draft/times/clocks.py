@@ -106,7 +106,7 @@ def set_back_question(group: Group) -> str | None:
             continue
         absolute = file.recording.clock == "absolute"
         of_day = file.recording.of_day_ns
-        cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day)
+        cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day, file.recording.notes)
         asked = (
             "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the "
             "file"

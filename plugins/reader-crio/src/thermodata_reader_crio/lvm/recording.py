@@ -12,6 +12,7 @@ from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan
+from thermodata_reader_crio.lvm.starts import starts_of
 from thermodata_reader_crio.lvm.streams import Streams, is_time
 from thermodata_reader_crio.lvm.times import Times
 from thermodata_reader_crio.lvm.units import unit_of
@@ -25,7 +26,7 @@ def describe(path: Path, source: Source) -> Recording:
     channel over time."""
     first = sample(path, source.encoding)
     encoding, notes = first.encoding, [first.note] if first.note else []
-    streams = streams_of(path, encoding)
+    streams, starts = streams_of(path, encoding), starts_of(path, encoding, source.timezone)
     signals: dict[tuple[str, str], Signal] = {}
     start: int | None = None
     header, packet, fresh = Header(), None, False
@@ -40,7 +41,7 @@ def describe(path: Path, source: Source) -> Recording:
             fresh = False
             last = not has_heading_behind(path, encoding, item)
             decimal_of(item.data, header, packet, notes)
-            times = Times(header, packet, first_rows(item.data, header, packet), source, notes)
+            times = Times(header, packet, first_rows(item.data, header, packet), starts, notes)
             for group in streams.groups(packet):
                 base = times.base(group[0])
                 dated = dated or times.dated(group[0])
