@@ -83,8 +83,10 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """What a file holds, read without its bulk. complete: None where the format cannot tell. of_day_ns: of a relative
-    clock whose file has times of day without a date, that of its first row: so parts of a recording tell their pauses.
+    """What a file holds, read without its bulk. start_ns: UTC of the first sample of an absolute clock; None of a
+    relative one, of which no file says when it began. complete: None where the format cannot tell. of_day_ns: of a
+    relative clock whose file has times of day without a date, that of its first row: so parts of a recording tell their
+    pauses.
     """
 
     signals: tuple[Signal, ...]
@@ -93,6 +95,11 @@ class Recording:
     complete: bool | None = None
     notes: tuple[str, ...] = ()
     of_day_ns: int | None = None
+
+    @property
+    def is_undated(self) -> bool:
+        """Whether the file does not say when it was recorded: no relative clock began in 1970."""
+        return self.clock == "relative" and not self.start_ns
 
 
 @dataclass(frozen=True, slots=True)

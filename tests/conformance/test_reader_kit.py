@@ -91,6 +91,11 @@ class StartsElsewhere(Good):
         return replace(super().describe(path, source), clock="absolute", start_ns=10**18)
 
 
+class CountsFrom1970(Good):
+    def describe(self, path: Path, source: Source) -> Recording:
+        return replace(super().describe(path, source), start_ns=0)
+
+
 class Remembers(Good):
     """Keeps its place between calls."""
 
@@ -312,6 +317,7 @@ BROKEN: dict[type, Callable[..., None]] = {
     PlacesNowhere: kit.a_row_of_it_can_be_located_where_the_reader_has_a_way,
     NeverDelivers: kit.every_declared_signal_arrives,
     StartsElsewhere: kit.an_absolute_recording_starts_when_it_says,
+    CountsFrom1970: kit.a_relative_recording_starts_at_no_date,
     Remembers: kit.reading_again_gives_the_same,
     Shares: kit.threads_read_the_same,
     SeamLosesARow: kit.the_size_of_blocks_changes_nothing,

@@ -47,6 +47,19 @@ def test_a_log_that_counts_from_elsewhere_began_with_the_others_by_an_offset(tmp
     assert "beside" not in found.partition("; clock")[0]  # no length of a period that nobody has said
 
 
+@pytest.mark.parametrize(("earlier_s", "questions"), [(0, 0), (1800, 1)])
+def test_when_a_trace_of_a_control_without_dates_began_is_asked(tmp_path: Path, earlier_s: int, questions: int) -> None:
+    (tmp_path / "raw").mkdir()
+    rows = (f"{t}.000,{3000 if t > 900 else 0}" for t in range(0, 7200, 10))
+    trace = "\n".join(["Time,/Nck/!SD/nckServoDataActVelMot64 [u1; 5]", *rows, ""])
+    (tmp_path / "raw" / "trace_one.csv").write_text(trace)
+    at = np.datetime64("2026-06-01T13:00:00") + np.arange(-earlier_s, 7200, 10).astype("timedelta64[s]")
+    air = "\n".join(["time,Hall air [degC]", *(f"{x}Z,{20 + i / 400:.2f}" for i, x in enumerate(at)), ""])
+    (tmp_path / "raw" / "hall_one.csv").write_text(air)
+    found = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if "when did it begin?" in q]
+    assert len(found) == questions
+
+
 def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> None:
     assert asked(tmp_path, 1800, dated=False) == []
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.times.step_back import in_words, likely_cause, said
+from thermodata.reader.times.step_back import cause_of, in_words, likely_cause, said
 
 
 def ns(text: str) -> int:
@@ -58,3 +58,15 @@ def test_from_when_to_when_is_told_on_the_clock_of_the_file() -> None:
 def test_what_set_a_clock_back_is_named_where_it_shows(before: str, at: str, local: bool, cause: str | None) -> None:
     found = likely_cause(ns(before), ns(at), local)
     assert (found is None) if cause is None else (cause in str(found))
+
+
+@pytest.mark.parametrize(
+    ("at", "told"),
+    [("2026-10-25T00:00", True), ("2026-10-25T00:40", True), ("2026-10-24T23:50", False), ("2026-10-25T09:00", False)],
+)
+def test_a_step_back_in_the_hour_that_the_zone_repeats_is_not_advised_to_be_joined(at: str, told: bool) -> None:
+    """Joined, what follows would stand as much too late as it stepped back."""
+    notes = ("no comment", "the hour that repeats at 2026-10-25T01:00:00Z: 4 starts in its first pass, 0 in its second")
+    cause = cause_of(ns(at) + 1_800 * 10**9, ns(at), True, False, None, notes)
+    assert (cause is not None and "split the file there" in cause) is told
+    assert cause_of(ns(at) + 1_800 * 10**9, ns(at), True, False, None) is None

@@ -45,7 +45,8 @@ class NpzReader:
                 signals.append(Signal(name, stream, UNITS.get(name.split("/")[-1]), kind))
         clock = str(data.get("_clock", "absolute"))
         if clock == "relative":
-            return Recording(tuple(signals), "relative", complete=True)
+            start = int(data["_start_ns"]) if "_start_ns" in data else None
+            return Recording(tuple(signals), "relative", start, complete=True)
         first = min(int(v[0]) for k, v in data.items() if k.endswith(":t_ns"))
         return Recording(tuple(signals), "absolute", first, complete=True)
 

@@ -177,12 +177,17 @@ def test_a_test_of_its_own_begins_with_its_displacements_however_their_file_is_c
         assert con.execute(asked).fetchall() == [(0.0, 3990.0)]
 
 
-def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(store: Store, tmp_path: Path) -> None:
+@pytest.mark.parametrize("said", [{}, {"start_ns": "0"}])
+def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(
+    store: Store, tmp_path: Path, said: dict[str, str]
+) -> None:
+    """Also where its reader says that it starts at 0, which is no date."""
     path = write_campaign(tmp_path / "lab")
     write_log(
         path.parent / "raw/one.nc.npz",
         {"nc": {"t_ns": times(50, 10.0, start_ns=0), "n": np.arange(50.0), "msg": np.array(["A"] * 50)}},
         clock="relative",
+        **said,
     )
     summary = ingest(store, path)
     assert any("relative clock" in note for note in summary.notes)

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.draft.make import draft_files
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.rows.on_change import Written, has_no_rate, written_by_hand
+from thermodata.store.tidy.rows.on_change import Written, has_no_rate, with_steps, written_by_hand
 from thermodata.store.tidy.rows.timeline import given_timeline
 from thermodata.view import load_dataset
 
@@ -141,3 +142,58 @@ def test_many_rows_at_even_times_are_a_clocks_and_asked_for() -> None:
     assert written_by_hand("position", even[:24], sawtooth[:24], SECOND) == "on change"
     uneven = even + np.arange(180) % 7 * SECOND
     assert written_by_hand("position", uneven, sawtooth, SECOND) == "on change"
+
+
+def on_change_beside_a_dense_log(folder: Path, behind_s: float) -> Path:
+    """Two hours of a speed every 10 s, and the same on a clock that is behind, a row where something changed: the speed
+    or, at no rate, something else."""
+    rng = np.random.default_rng(3)
+    t = np.arange(0, 7200, 10)
+    speeds = np.array([0, 5000, 3000, 8000, 0, 6000, 0])
+    edges = np.array([0, 903, 2111, 2987, 4019, 5203, 6307])
+    x = speeds[np.searchsorted(edges, t, "right") - 1]
+    at = np.unique(np.concatenate([edges, rng.uniform(0, 7000, 40).round(), [7190]]))
+    rows = speeds[np.searchsorted(edges, at, "right") - 1]
+    day = np.datetime64("2026-03-02T08:00:00.000")
+    dense = [f"{day + int(s * 1000)}Z,{v:.3f},{20 + s / 3600:.2f}" for s, v in zip(t, x, strict=True)]
+    own = [f"{day + int((s - behind_s) * 1000)}Z,{v:.3f}" for s, v in zip(at, rows, strict=True)]
+    folder.mkdir(exist_ok=True)
+    (folder / "day_daq.csv").write_text("\n".join(["time,n [rpm],T", *dense, ""]))
+    (folder / "day_plc.csv").write_text("\n".join(["time,n [rpm]", *own, ""]))
+    return folder
+
+
+@pytest.mark.parametrize("here", ["plc", "daq"])
+def test_a_clock_is_aligned_by_the_steps_of_a_log_on_change(tmp_path: Path, here: str) -> None:
+    """Straight from row to row, each step lies half a pause of minutes early."""
+    folder = on_change_beside_a_dense_log(tmp_path / "lab", 770.0)
+    there, pair = ("daq", "{here: n, there: n_daq}") if here == "plc" else ("plc", "{here: n_daq, there: n}")
+    text = CAMPAIGN.replace(
+        f'files: "{{test}}_{here}.csv"', f'files: "{{test}}_{here}.csv", clock: {{align_to: {there}, by: [{pair}]}}'
+    ).replace("tests:", '  n_daq: {source: daq, signal: "n [rpm]", quantity: rotational_speed, unit: rpm}\ntests:')
+    (folder / "campaign.yaml").write_text(text)
+    store = Store(tmp_path / "s", create=True)
+    ingest(store, folder / "campaign.yaml")
+    with store.reader() as con:
+        ((offset,),) = con.execute("select offset_ns from source where source = ?", [here]).fetchall()
+    assert offset / 1e9 == pytest.approx(770.0 if here == "plc" else -770.0, abs=6.0)  # a step is seen up to 10 s late
+
+
+def test_a_draft_proposes_the_clock_by_the_same_steps(tmp_path: Path) -> None:
+    folder = on_change_beside_a_dense_log(tmp_path / "lab", 770.0)
+    for name, head in {
+        "daq": "time,Spindle speed [rpm],T_bed [degC]",
+        "plc": "Timestamp,S1 actual speed [rpm]",
+    }.items():
+        rows = (folder / f"day_{name}.csv").read_text().split("\n", 1)[1]
+        (folder / f"day_{name}.csv").write_text(f"{head}\n{rows}")
+    (found,) = [s.align for s in draft_files(folder).draft.sources if s.align is not None]
+    assert found.offset_s is not None
+    assert abs(found.offset_s) == pytest.approx(770.0, abs=6.0)
+
+
+def test_rows_stand_until_just_before_the_next_one() -> None:
+    t = np.array([0, 60, 61, 200]) * 10**9
+    found, values = with_steps(t, np.array([1.0, 1.0, 2.0, 3.0]))
+    assert (found / 1e9).tolist() == [0, 59, 60, 61, 199, 200]
+    assert values.tolist() == [1, 1, 1, 2, 2, 3]

@@ -85,3 +85,22 @@ def test_a_row_says_where_it_stands(tmp_path: Path, text: str, stream: str, plac
     reader = Reader()
     assert [reader.locate(path, Source(), stream, row) for row in range(len(places))] == places
     assert reader.place(path, Source(), stream, 0) == places[0]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SCO,
+        TRACE.replace("2026-03-02T09:00:00Z", "0"),
+        "Time,/Nck/!SD/nckServoDataActVelMot64 [u1; 5]\n0.000,0\n2.000,3000\n4.000,3000\n",
+        "0|Xpos|1.5\n100.25|Xpos|2.5\n250|Xpos|3\n",
+    ],
+    ids=["sco", "trace xml", "trace csv", "shdr"],
+)
+def test_a_log_without_dates_starts_at_none(tmp_path: Path, text: str) -> None:
+    """0 would put it at 1970 beside a log that has dates."""
+    path = tmp_path / "log.dat"
+    path.write_text(text, encoding="utf-8", newline="")
+    recording = load(Reader(), path, Source()).recording
+    assert (recording.clock, recording.start_ns) == ("relative", None)
+    assert recording.is_undated

@@ -17,6 +17,7 @@ from thermodata.draft.folder.listed_times import ListedTime
 from thermodata.draft.folder.notes import Note, notes_of
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.folder.table import TestTable
+from thermodata.draft.probes.end_of_range import range_questions
 from thermodata.draft.probes.jump_within import window_behind_jumps
 from thermodata.draft.times.beside_list import not_as_listed, start_listed
 from thermodata.draft.times.block_windows import window_question
@@ -91,6 +92,7 @@ def _drafted(
         doubts.append(window_question(files))
     if window is None and (jumps := window_behind_jumps(files)) is not None:
         doubts.append(jumps)
+    doubts += range_questions(files)
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 

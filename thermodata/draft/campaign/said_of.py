@@ -10,6 +10,7 @@ from thermodata.draft.folder.legend import IN_LEGEND, TOLD_TOO
 from thermodata.draft.folder.one_signal import OneSignal
 from thermodata.draft.signals.guess import called, guess, told_of
 from thermodata.draft.signals.head_said import with_head, with_text
+from thermodata.draft.signals.implied_speed import with_speed_asked
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
@@ -85,7 +86,7 @@ def _by_name_and_values(signal: Signal, files: _InFiles) -> Guess:
     if (scaled := as_scaled(files.values, files.own.values())) is not None:
         # what values ask that are counts, the scale answers
         said = min(said, guess(name, files.usual, signal.dtype, scaled, told), key=lambda g: len(g.questions))
-    said = with_standard_unit(replace(said, sure=False) if where else said, signal)
+    said = with_speed_asked(with_standard_unit(replace(said, sure=False) if where else said, signal), signal, name)
     if TOLD_TOO in signal.properties and said.quantity:
         asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
         said = replace(said, questions=(*said.questions, asked))

@@ -142,7 +142,7 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
             conditions["axis"] = letter.upper()
     if kind == "spindle" and "speed" not in conditions and len(moved.speeds) == 1 and moved.whole:
         conditions["speed"] = f"{moved.speeds[0]:g} rpm"
-        comments.append("speed sure: data")
+        comments.append("speed guess: data, in rpm by its values" if moved.implied else "speed sure: data")
     undated = [f.path.stem for f in files if f.start_ns is None]
     # beside recordings that date themselves, it is the names of the others that say when these began
     start = said.start if len(undated) == len(files) else said_by(undated).start if undated else None

@@ -12,6 +12,7 @@ from thermodata.draft.courses.cuts import feeds_with_spindle, is_loaded
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.signals.implied_speed import is_implied
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.units.quantity import canonical, linear_conversion
@@ -32,9 +33,9 @@ _FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much
 @dataclass(slots=True)
 class Moved:
     """What a test's recordings show. speeds: plateaus of the spindle [rpm]; fed: whether a feed ran whose axis is not
-    told; turning: of what turns beside spindle and table, as a lathe's driven tools, by its place; seen: whether a
-    speed, a feed or a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded:
-    that takes its power; None where that was not logged."""
+    told; implied: whether nothing says the unit of these speeds; turning: of what turns beside spindle and table, as a
+    lathe's driven tools, by its place; seen: whether a speed, a feed or a position was logged at all. with_spindle: the
+    axes feed only while the spindle turns; loaded: that takes its power; None where that was not logged."""
 
     speeds: tuple[float, ...] = ()
     axes: set[str] = field(default_factory=set)
@@ -44,6 +45,7 @@ class Moved:
     switched: bool = False
     seen: bool = False
     whole: bool = True
+    implied: bool = False
     with_spindle: bool = False
     loaded: bool | None = None
 
@@ -84,6 +86,7 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
             factor = _factor(said.quantity, said.unit)
             low, high = file.sample.extents.get(key, (seen.low, seen.high))
             course = None if course is None else _read(course, said.quantity or "")
+            before = found.speeds
             _add(
                 found,
                 said.quantity,
@@ -92,6 +95,8 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
                 factor * (high - low),
                 None if course is None else Course(course.t_ns, factor * course.values),
             )
+            if found.speeds is not before:
+                found.implied = is_implied(said)
             if course is not None and course.t_ns.size:
                 work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
         work.tell(found)

@@ -15,7 +15,7 @@ _DAY_NS = 86_400 * 10**9
 def began_ns(file: RawFile) -> int | None:
     """Of a log without dates: its first time of day, on the day that its name says."""
     said = file.recording
-    if said.clock != "relative" or said.start_ns is not None or said.of_day_ns is None:
+    if not said.is_undated or said.of_day_ns is None:
         return None
     day = day_of_name(file)
     return None if day is None else day + said.of_day_ns

@@ -104,7 +104,7 @@ class RawFile:
     @property
     def counts_from_ns(self) -> int | None:
         """The first time of a file without dates, by the column that a question proposes where one does."""
-        if self.recording.clock != "relative" or self.recording.start_ns is not None or self.block is not None:
+        if not self.recording.is_undated or self.block is not None:
             return None
         asked = next((a.begins_s for a in self.asked if a.begins_s is not None), None)
         return self.sample.first_ns if asked is None else round(asked * 1e9)

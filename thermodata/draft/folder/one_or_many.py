@@ -114,11 +114,7 @@ def _said_apart(names: Sequence[str], is_number: Callable[[str], bool]) -> bool:
 
 def _dated(test: str, groups: Sequence[Group]) -> bool:
     """Whether any log of a test says when it began."""
-    return any(
-        f.recording.clock == "absolute" or f.recording.start_ns is not None
-        for g in groups
-        for f in g.tests.get(test, ())
-    )
+    return any(not f.recording.is_undated for g in groups for f in g.tests.get(test, ()))
 
 
 def _begins_at_0(file: RawFile) -> bool:

@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from thermodata.draft.signals import bracket_at_end, units
 from thermodata.draft.signals.doubted_units import doubted, implausible
+from thermodata.draft.signals.implied_speed import with_speed_asked
 from thermodata.draft.signals.implied_unit import with_unit
 from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
@@ -75,7 +76,9 @@ def told_of(signal: Signal) -> str:
 
 def guess_of(signal: Signal, values: Values | None = None) -> Guess:
     """The same of a signal, as all that its file says of it has it."""
-    return with_standard_unit(guess(called(signal), signal.unit, signal.dtype, values, told_of(signal)), signal)
+    name = called(signal)
+    found = with_standard_unit(guess(name, signal.unit, signal.dtype, values, told_of(signal)), signal)
+    return with_speed_asked(found, signal, name)
 
 
 @lru_cache(maxsize=50_000)
@@ -101,7 +104,7 @@ def guess(
     def of_quantity(known: str | None) -> Guess:
         return quantity_of(what, text, known, dtype, values)
 
-    written = None if unit else said.unit() or _unit_of_quantity(said, of_quantity(None), values)
+    written = None if unit else said.unit() or _unit_of_quantity(said, of_quantity(None), values, described)
     known = unit or written
     counts = units.counts_or_range(said.whole_last) if not known else None
     if counts or (known and not is_unit(known)):
@@ -184,11 +187,13 @@ class _Name:
         return _in_brackets(self.whole) or self.rate or at_end or units.inches(self.whole_last)
 
 
-def _unit_of_quantity(name: _Name, found: Guess, values: Values | None) -> str | None:
-    """The unit that a name has where its quantity tells that it is one. found: by the name without a unit."""
+def _unit_of_quantity(name: _Name, found: Guess, values: Values | None, described: str) -> str | None:
+    """The unit that a name, or else what the file says of it, has where its quantity tells that it is one. found: by
+    the name without a unit."""
     quantity = found.quantity if "name" in found.basis else None
     at_end = next(filter(None, (beside(end, quantity, values) for end in name.ends)), None)
-    return at_end or bracket_at_end.of_quantity(name.whole_last, quantity)
+    in_name = at_end or bracket_at_end.of_quantity(name.whole_last, quantity)
+    return in_name or units.described(described, quantity)
 
 
 def _asked_by_name(found: Guess, name: _Name, unit: str | None, written: str | None, values: Values | None) -> Guess:

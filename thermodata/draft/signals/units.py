@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from thermodata.errors import UsageError
+from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.unit_in_name import AT_END, unit_at_end
 from thermodata.schema.units.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
 from thermodata.schema.units.quantity import converts as converts_to
@@ -65,6 +66,13 @@ def rate_at_end(name: str) -> tuple[str, str | None]:
     stroke parts no path of names."""
     match = _RATE_AT_END.search(name.strip())
     return (name.strip()[: match.start()], match[1]) if match else (name, None)
+
+
+def described(text: str, quantity: str | None) -> str | None:
+    """The unit at the end of what a file says of a signal, where it is one of its quantity: 'Istdrehzahl Grad/s'."""
+    last = text.split()[-1] if text.split() else ""
+    said = split_unit(text)[1] or (last if "/" in last else "")
+    return said if said and quantity is not None and is_unit(said) and may_be(said, quantity) else None
 
 
 def without_value(name: str) -> str:

@@ -8,13 +8,16 @@ from dataclasses import dataclass
 
 from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.files.sample import Course
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
+from thermodata.plugin import Float1D, Int1D
 from thermodata.reader.times.step_back import cause_of, in_words, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
+from thermodata.store.tidy.rows.on_change import SET, STEPS, come_at_no_rate, with_steps
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
@@ -106,7 +109,7 @@ def set_back_question(group: Group) -> str | None:
             continue
         absolute = file.recording.clock == "absolute"
         of_day = file.recording.of_day_ns
-        cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day)
+        cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day, file.recording.notes)
         asked = (
             "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the "
             "file"
@@ -135,7 +138,7 @@ def mended_clocks(groups: Sequence[Group]) -> list[str]:
 
 
 def _undated(file: RawFile) -> bool:
-    return file.recording.clock == "relative" and file.recording.start_ns is None
+    return file.recording.is_undated
 
 
 def _counts_from(group: Group) -> dict[str, int]:
@@ -186,6 +189,14 @@ def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[A
     return found
 
 
+def _steps(course: Course, quantity: str, signal: tuple[str, str], group: Group) -> tuple[Int1D, Float1D]:
+    """Times and values of a course, shape (n,); of what is set in a log written on change, with its steps."""
+    held = any(s.held for s, _ in group.signals if (s.stream, s.name) == signal)
+    if quantity in STEPS and (held or (quantity in SET and come_at_no_rate(course.t_ns))):
+        return with_steps(course.t_ns, course.values)
+    return course.t_ns, course.values
+
+
 def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alignment | None:
     pairs = [
         (a, b, name_a, name_b)
@@ -202,7 +213,8 @@ def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alig
             if one is None or two is None:
                 continue
             try:
-                said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
+                quantity = channels[here.source][a][0]
+                said = estimate_offset(*_steps(one, quantity, a, here), *_steps(two, quantity, b, there))
             except ThermodataError as error:
                 refused = refused or Alignment(
                     here.source, there.source, (name_a, name_b), None, None, test, error.what

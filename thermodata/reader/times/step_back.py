@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+
 import numpy as np
+
+from thermodata.reader.times.zone import REPEATS
 
 _S, _MIN, _H = 10**9, 60 * 10**9, 3600 * 10**9
 _ROW_NS = 10 * _MIN  # from row to row at most, so that the hour shows at which the clock turned
+_REPEATED = re.compile(rf"{REPEATS} (\S+)Z:")
 _MONTHS = (3, 4, 9, 10, 11)  # in which summer time ends somewhere: always on a Sunday, by three or so
 
 
@@ -35,12 +41,23 @@ def moment(ns: int, absolute: bool, local: bool, of_day_ns: int | None = None) -
     return str(np.datetime64(ns // _S, "s")).replace("T", " ") + ("" if local else " UTC")
 
 
-def cause_of(before_ns: int, at_ns: int, absolute: bool, local: bool, of_day_ns: int | None) -> str | None:
+def cause_of(
+    before_ns: int, at_ns: int, absolute: bool, local: bool, of_day_ns: int | None, notes: Sequence[str] = ()
+) -> str | None:
     """The likely cause for a file, by its dates, or by the times of day that it tells without; absolute, local,
-    of_day_ns: as of `said`. None where nothing tells."""
+    of_day_ns: as of `said`; notes: of the file, which tell the hour that its zone repeats. None where nothing tells."""
     if absolute:
-        return likely_cause(before_ns, at_ns, local)
+        return _second_pass(at_ns, notes) or likely_cause(before_ns, at_ns, local)
     return None if of_day_ns is None else likely_cause(before_ns + of_day_ns, at_ns + of_day_ns, local=False)
+
+
+def _second_pass(at_ns: int, notes: Sequence[str]) -> str | None:
+    """What to do where it steps back in an hour that its declared zone repeats: joined, the rest stands an hour off."""
+    for note in notes:
+        match = _REPEATED.match(note)
+        if match is not None and abs(at_ns // _S - int(np.datetime64(match[1], "s").astype(np.int64))) <= _H // _S:
+            return "its zone repeats that hour, and nothing told its second pass: split the file there"
+    return None
 
 
 def likely_cause(before_ns: int, at_ns: int, local: bool) -> str | None:

@@ -15,6 +15,7 @@ from thermodata.reader.times.newest_first import Steps
 
 NAT = np.iinfo(np.int64).min
 NO_ZONE = "no time zone declared"  # begins the note on local times whose zone nobody says
+REPEATS = "the hour that repeats at"  # begins the note on local times that lie in both of its passes
 _S = 1_000_000_000
 # A clock that steps back by less is jitter; by more, inside a repeated hour, it is the hour that repeats.
 _STEP_BACK = 60 * _S
@@ -56,12 +57,13 @@ def _transitions(tz: ZoneInfo, first_s: int, last_s: int) -> list[tuple[int, int
     return found
 
 
-def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1D, list[str]]:
+def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None, *, of: str = "rows") -> tuple[Int1D, list[str]]:
     """UTC nanoseconds of local times, in file order, with notes on what had to be decided.
 
     naive: shape (n,), datetime64; NaT stays the smallest int64 (`zone.NAT`). timezone None: taken as UTC, with
-    a note. The hour that repeats in autumn is told apart by the step back of the clock inside it; where no row
-    steps back, by the usual step of the rows. Times that do not exist in spring keep the offset of before.
+    a note. of: what the times are of, for the notes. The hour that repeats in autumn is told apart by the step back of
+    the clock inside it; where no row steps back, by the usual step of the rows. Times that do not exist in spring keep
+    the offset of before.
 
     FormatError where the times run straight on through a change of the zone: that clock keeps one offset all year.
     """
@@ -69,7 +71,7 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
     if timezone is None:
         return local, [f"{NO_ZONE}: times are taken as UTC"]
     if _newest_first(local):
-        turned, said = local_to_utc_ns(naive[::-1], timezone)
+        turned, said = local_to_utc_ns(naive[::-1], timezone, of=of)
         return turned[::-1], said
     tz = zone(timezone)
     valid = local != NAT
@@ -98,8 +100,9 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
             utc[inside] = local[inside] - before
             utc[second] = local[second] - after
             notes.append(
-                f"the hour that repeats at {when}: {int((inside & ~second).sum())} rows in its first pass, "
-                f"{int(second.sum())} in its second" + ("" if sure else " (no row steps back: a guess)")
+                f"{REPEATS} {when}: {int((inside & ~second).sum())} {of} in its first pass, "
+                f"{int(second.sum())} in its second"
+                + ("" if sure else f" (no {of.removesuffix('s')} steps back: a guess)")
             )
     return utc, notes
 

@@ -40,7 +40,7 @@ def _first(raw: RawStream, rows: Iterable[Row]) -> int | None:
     """When a log begins [ns since 1970]: where it does not say so, with its test."""
     if raw.clock == "absolute":
         return raw.first_ns
-    if raw.start_ns is not None:
+    if raw.start_ns:
         return raw.start_ns + raw.first_ns
     # a declared start is what a clock counts from, which may be long before its first row
     return next((start - raw.first_ns for start in map(_start_held, rows) if start is not None), None)
@@ -64,7 +64,7 @@ def _began(files: CampaignFiles, test: Test, shared: Set[str]) -> Iterator[int]:
                 continue
             with suppress(ThermodataError, OSError):
                 said = described(files.reader(spec.reader, name), files.full(path), declared(name, own))
-                began = declared_ns if said.start_ns is None else said.start_ns
+                began = declared_ns if said.is_undated else said.start_ns
                 if began is not None:
                     yield began
 

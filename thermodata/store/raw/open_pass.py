@@ -21,9 +21,9 @@ def pass_notes(
     last recorded time of each stream [ns]."""
     if source.timezone is None or not spans:
         return []
-    relative = recording.clock == "relative"
-    if relative and recording.start_ns is None:
+    if recording.is_undated:
         return []
+    relative = recording.clock == "relative"
     first = recording.start_ns if relative and recording.start_ns is not None else min(a for a, _ in spans)
     # what counts from a local start hangs on it alone
     last = first if relative else max(b for _, b in spans)

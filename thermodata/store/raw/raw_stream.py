@@ -51,6 +51,11 @@ class RawStream:
     # as it was read; a copy that was changed has none
     _told: str | None = field(default=None, init=False, repr=False, compare=False)
 
+    @property
+    def is_undated(self) -> bool:
+        """Whether its file does not say when it was recorded, as `Recording.is_undated`."""
+        return self.clock == "relative" and not self.start_ns
+
     def to_json(self) -> str:
         """Everything but what the table `file` has columns for."""
         return self._told or json.dumps(

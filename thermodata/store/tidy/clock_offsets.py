@@ -22,6 +22,7 @@ from thermodata.store.tidy.clock.source_clock import Clock, Span, first_ns, is_r
 from thermodata.store.tidy.clock.undated import bases, tell_apart
 from thermodata.store.tidy.keys import channel_text
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.rows.on_change import STEPS, with_steps
 from thermodata.store.tidy.values.series import TestSeries
 
 if TYPE_CHECKING:
@@ -131,7 +132,7 @@ def _key(
     names = [n for pair in source.spec.clock.by for n in (pair.here, pair.there)]
     channels = [channel_text(plan.bound[n], calibrations) if n in plan.bound else n for n in names]
     return key_of(
-        "clock 1",
+        "clock 2",
         repr([r.key for r in source.raws]),
         repr([r.key if not r.moved_ns else (r.key, r.moved_ns) for r in there.raws]),
         source.spec.clock.model_dump_json(),
@@ -237,4 +238,6 @@ def _by_channels(series: TestSeries, source: SourcePlan, reasons: list[str]) -> 
 def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:
     bound = series.plan.bound[name]
     t_ns = series.timeline((bound.source, bound.stream)).t_ns
-    return t_ns, series.values(bound, 0, len(t_ns))[0]
+    values = series.values(bound, 0, len(t_ns))[0]
+    steps = series.as_written(bound).is_held and (bound.channel.quantity in STEPS or bound.channel.held)
+    return with_steps(t_ns, values) if steps else (t_ns, values)

@@ -33,6 +33,7 @@ from thermodata.testing.reader.claiming import (
 )
 from thermodata.testing.reader.contents import (
     a_block_stays_as_it_was_yielded,
+    a_relative_recording_starts_at_no_date,
     a_row_of_it_can_be_located_where_the_reader_has_a_way,
     a_whole_file_is_read_without_a_loss,
     an_absolute_recording_starts_when_it_says,
@@ -73,6 +74,7 @@ FILE_CHECKS: tuple[Callable[[Case, Path, Source], None], ...] = (
     every_declared_signal_arrives,
     a_whole_file_is_read_without_a_loss,
     an_absolute_recording_starts_when_it_says,
+    a_relative_recording_starts_at_no_date,
     a_row_of_it_can_be_located_where_the_reader_has_a_way,
     a_block_stays_as_it_was_yielded,
     reading_again_gives_the_same,

@@ -76,6 +76,17 @@ def an_absolute_recording_starts_when_it_says(case: Case, path: Path, source: So
             )
 
 
+def a_relative_recording_starts_at_no_date(case: Case, path: Path, source: Source) -> None:
+    recording = load(case.make(), path, source).recording
+    if recording.clock == "relative" and recording.start_ns is not None:
+        fault(
+            f"{path.name}: its clock is relative, and it says that it starts at "
+            f"{np.datetime64(recording.start_ns, 'ns')}",
+            "leave start_ns None: a relative clock counts from 0, and no date of the file; where the file has one, "
+            "make the clock absolute",
+        )
+
+
 def a_block_stays_as_it_was_yielded(case: Case, path: Path, source: Source) -> None:
     reader, options = case.make(), dict(source.options)
     if case.block_rows is not None:

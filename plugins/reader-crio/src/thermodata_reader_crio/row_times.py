@@ -26,11 +26,11 @@ def local_ns(date: str, time: str) -> int | None:
     return None if day is None or of_day == NAT or day < EPOCH_1904_NS else day + of_day
 
 
-def utc_ns(local: int, timezone: str | None, notes: list[str]) -> int:
-    """UTC of a local time; what had to be decided is noted."""
-    utc, decided = local_to_utc_ns(np.array([local], np.int64).view("datetime64[ns]"), timezone)
+def utc_ns(local: Int1D, timezone: str | None, notes: list[str]) -> Int1D:
+    """UTC of the local starts of pieces in their order, shape (n,); what had to be decided is noted."""
+    utc, decided = local_to_utc_ns(local.view("datetime64[ns]"), timezone, of="starts")
     notes.extend(n for n in decided if n not in notes)
-    return int(utc[0])
+    return utc
 
 
 def is_labview_seconds(values: Float1D) -> bool:

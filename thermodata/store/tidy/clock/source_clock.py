@@ -105,7 +105,7 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
     notes: list[str] = []
     if (
         len(ordered) > 1
-        and all(r.clock == "relative" and r.start_ns is None for r in ordered)
+        and all(r.is_undated for r in ordered)
         and any(b.first_ns <= a.last_ns for a, b in pairwise(ordered))
     ):
         ordered = list(raws)

@@ -66,7 +66,7 @@ class SourcePlan:
     @property
     def is_dated(self) -> bool:
         """Whether a file says when it was recorded."""
-        return not all(raw.clock == "relative" and raw.start_ns is None for raw in self.raws)
+        return not all(raw.is_undated for raw in self.raws)
 
     @property
     def streams(self) -> dict[str, list[RawStream]]:

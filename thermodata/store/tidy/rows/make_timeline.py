@@ -87,7 +87,7 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
     local = absolute and any(NO_ZONE in note for note in line.raws[0][0].notes)
     if steps.in_no_order:
         advice = "rows stand in no order of their times: sort the file by them"
-    elif (cause := cause_of(before, at, absolute, local, of_day)) is not None:
+    elif (cause := cause_of(before, at, absolute, local, of_day, line.raws[0][0].notes)) is not None:
         advice = cause
     else:
         advice = "split the test there or set clock: {resets: allow}"

@@ -14,6 +14,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.signals.set_values import are_set
+from thermodata.schema.units.quantity import HELD_QUANTITIES
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.rows.timeline import Timeline
 
@@ -24,8 +25,10 @@ UNEVEN = 3.0  # between the longer and the shorter of the times between its rows
 MOST_ROWS = 100_000  # of which it is told
 
 BY_HAND = SET | {"position"}  # of what somebody writes down the steps
+STEPS = BY_HAND | HELD_QUANTITIES  # what goes in steps in a log written on change; what a sensor measures runs on
 DENSER = 10.0  # the densest log beside it has so many rows where it has one
 MOST_BY_HAND = 200  # rows
+_BEFORE_NS = 10**9  # a change, which two clocks tell to a sample at best
 _MINUTE_NS, _ASKED_NS, _LONG_NS = 60 * 10**9, 300 * 10**9, 1200 * 10**9
 _STEPS = 0.5  # of its rows that change something, unless they lie far apart
 # rows, and what they change of the largest, that are asked for where they are not round; more, at even times, are asked
@@ -47,6 +50,16 @@ def come_at_no_rate(t_ns: Int1D) -> bool:
         return False
     short, long = np.quantile(np.diff(times), (0.1, 0.9))
     return bool(long > UNEVEN * short)
+
+
+def with_steps(t_ns: Int1D, values: Array) -> tuple[Int1D, Array]:
+    """A log written on change with a row of the old value just before each of its rows, so that what reads straight
+    between rows sees steps, and none of them as far off as its pauses are long.
+
+    t_ns: ascending, shape (n,); values: shape (n,). Returns both of shape (m,), m >= n.
+    """
+    at = np.flatnonzero(np.diff(t_ns) > 2 * _BEFORE_NS) + 1
+    return np.insert(t_ns, at, t_ns[at] - _BEFORE_NS), np.insert(values, at, values[at - 1])
 
 
 def step_beside(streams: Mapping[tuple[str, str], Sequence[RawStream]], own: tuple[str, str]) -> int:

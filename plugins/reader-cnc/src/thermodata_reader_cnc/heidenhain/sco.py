@@ -51,7 +51,7 @@ def describe(path: Path, source: Source) -> Recording:
     return Recording(
         signals,
         "relative" if relative else "absolute",
-        0 if relative else header.start_ns,
+        header.start_ns,
         None if first.ends_with_newline else False,
         tuple(notes),
     )

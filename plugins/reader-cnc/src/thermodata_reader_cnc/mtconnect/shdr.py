@@ -98,7 +98,7 @@ def describe(path: Path, source: Source) -> Recording:
     return Recording(
         signals,
         "relative" if look.relative else "absolute",
-        0 if look.relative else held.start_ns,
+        None if look.relative else held.start_ns,
         held.complete,
         held.notes,
     )

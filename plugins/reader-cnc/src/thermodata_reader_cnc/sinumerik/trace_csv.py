@@ -169,7 +169,7 @@ def describe(path: Path, source: Source) -> Recording:
     """Signals of a trace, by its header; times are relative."""
     header, _, whole = _header(path, source)
     names = [n for k, n in enumerate(header.names) if n and k != header.time]
-    return Recording(tuple(Signal(n, STREAM) for n in names), "relative", 0, None if whole else False)
+    return Recording(tuple(Signal(n, STREAM) for n in names), "relative", None, None if whole else False)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

@@ -120,7 +120,7 @@ def describe(path: Path, source: Source) -> Recording:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4096))
         complete = _CLOSED.search(file.read()) is not None
-    return Recording(tuple(signals), "relative" if start is None else "absolute", start or 0, complete, tuple(notes))
+    return Recording(tuple(signals), "relative" if start is None else "absolute", start, complete, tuple(notes))
 
 
 class _Frames:

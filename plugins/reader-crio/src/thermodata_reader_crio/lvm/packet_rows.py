@@ -36,6 +36,11 @@ class PacketRows:
         self.name, self.packet, self.streams, self.times, self.grid = name, packet, streams, times, grid
         self.block_rows = int(source.options.get("block_rows", 0))
         self.done = 0
+        # as of this heading: later ones are met while its last rows are parsed
+        self._changes = {
+            group[0]: streams.units.changed(streams.of(packet, group), packet, group)
+            for group in streams.groups(packet)
+        }
         self._holes: dict[int, list[int]] = {}  # of a group: lines without it behind its last row, or its start
 
     def items(self, rows: Rows) -> Iterator[Block | Loss]:
@@ -97,6 +102,7 @@ class PacketRows:
         keep = good & self._sampled(group, cells, n) if cells.empty else good
         values: dict[str, Array] = {packet.names[i]: rows.columns[packet.columns[i]].values for i in group}
         flags = self._flags(group, cells)
+        self._in_first_unit(group, values, flags)
         values[comment_name(values)] = cells.words if cells.words is not None else np.full(n, "", object)
         at = rows.line + 1
         if not keep.all():
@@ -119,6 +125,26 @@ class PacketRows:
             if parts:
                 flags[self.packet.names[i]] = np.bitwise_or.reduce(parts)
         return flags
+
+    def _in_first_unit(self, group: list[int], values: dict[str, Array], flags: dict[str, Array]) -> None:
+        """Converts the values of channels whose unit changed; what does not convert is not measured."""
+        for change in self._changes[group[0]]:
+            own = values[change.name]
+            if change.scale is not None:
+                values[change.name] = own * change.scale[0] + change.scale[1]
+                continue
+            values[change.name] = np.full(own.size, np.nan)
+            known = flags.get(change.name, np.zeros(own.size, np.uint16))
+            flags[change.name] = known | np.uint16(Flag.NOT_MEASURING)
+
+    def left_out(self) -> Iterator[Loss]:
+        """The channels that this heading gives another kind of unit, once each."""
+        for group in self.streams.groups(self.packet):
+            stream = self.streams.of(self.packet, group)
+            for change in self._changes[group[0]]:
+                if change.scale is None and self.streams.units.is_new(stream, change):
+                    where = f"{self.name} line {self.packet.line}"
+                    yield Loss(where, reason=f"{change.name}: {change}", signal=change.name)
 
     def _has_value(self, group: list[int], cells: _Cells, n: int) -> Bool1D:
         """Rows with a number in any of a group's columns."""

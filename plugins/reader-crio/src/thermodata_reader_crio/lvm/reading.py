@@ -16,6 +16,7 @@ from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.packet_rows import PacketRows
 from thermodata_reader_crio.lvm.recording import streams_of
 from thermodata_reader_crio.lvm.scan import Item, RowPart, scan
+from thermodata_reader_crio.lvm.starts import Starts, starts_of
 from thermodata_reader_crio.lvm.streams import Streams
 from thermodata_reader_crio.lvm.times import Times
 
@@ -23,7 +24,7 @@ from thermodata_reader_crio.lvm.times import Times
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The rows of every packet, part by part, each with its line; and a loss for what does not read."""
     encoding = sample(path, source.encoding).encoding
-    streams = streams_of(path, encoding)
+    streams, starts = streams_of(path, encoding), starts_of(path, encoding, source.timezone)
     header = Header()
     reading: _Reading | None = None
     waiting: _Parsing | None = None
@@ -44,7 +45,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             elif isinstance(item, Packet) or item is None:
                 if reading is not None:
                     yield from reading.end(last_ns)
-                reading = None if item is None else _Reading(path.name, header, item, streams, source)
+                reading = None if item is None else _Reading(path.name, header, item, streams, starts, source)
 
 
 def _and_end(items: Iterator[Item]) -> Iterator[Item | None]:
@@ -68,21 +69,27 @@ class _Parsing:
 class _Reading:
     """The rows of one packet, part by part."""
 
-    def __init__(self, name: str, header: Header, packet: Packet, streams: Streams, source: Source) -> None:
-        self.name, self.header, self.packet, self.streams, self.source = name, header, packet, streams, source
+    def __init__(
+        self, name: str, header: Header, packet: Packet, streams: Streams, starts: Starts, source: Source
+    ) -> None:
+        self.name, self.header, self.packet, self.streams = name, header, packet, streams
+        self.starts, self.source = starts, source
         self.into: PacketRows | None = None
         for group in streams.groups(packet):
-            streams.of(packet, group)  # named in the order of the headings, whether rows follow or not
+            # named, and their units taken, in the order of the headings, whether rows follow or not
+            streams.units.changed(streams.of(packet, group), packet, group)
 
     def begin(self, part: RowPart, pool: Executor) -> _Parsing | None:
         """Has lines parsed, while what came before them is used."""
-        data, losses = part.data, []
+        data = part.data
+        losses: list[Loss] = []
         if self.into is None:
             if not data.strip():
                 return None
-            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.source, [])
+            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.starts, [])
             grid = grid_of(self.header, self.packet, decimal_of(data, self.header, self.packet, []))
             self.into = PacketRows(self.name, self.packet, self.streams, times, grid, self.source)
+            losses += self.into.left_out()
         if not part.ended:
             data, cut = without_cut_line(data, self.header.separator)
             if cut:

@@ -8,13 +8,14 @@ from pathlib import Path
 from thermodata.errors import FormatError
 from thermodata.plugin import Recording, Signal, Source
 from thermodata.reader.text.file.lines import sample
-from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan
+from thermodata_reader_crio.lvm.starts import starts_of
 from thermodata_reader_crio.lvm.streams import Streams, is_time
 from thermodata_reader_crio.lvm.times import Times
+from thermodata_reader_crio.lvm.units import unit_of
 
 COMMENT = "Comment"
 _NOTES = 20
@@ -25,7 +26,7 @@ def describe(path: Path, source: Source) -> Recording:
     channel over time."""
     first = sample(path, source.encoding)
     encoding, notes = first.encoding, [first.note] if first.note else []
-    streams = streams_of(path, encoding)
+    streams, starts = streams_of(path, encoding), starts_of(path, encoding, source.timezone)
     signals: dict[tuple[str, str], Signal] = {}
     start: int | None = None
     header, packet, fresh = Header(), None, False
@@ -40,7 +41,7 @@ def describe(path: Path, source: Source) -> Recording:
             fresh = False
             last = not has_heading_behind(path, encoding, item)
             decimal_of(item.data, header, packet, notes)
-            times = Times(header, packet, first_rows(item.data, header, packet), source, notes)
+            times = Times(header, packet, first_rows(item.data, header, packet), starts, notes)
             for group in streams.groups(packet):
                 base = times.base(group[0])
                 dated = dated or times.dated(group[0])
@@ -96,11 +97,13 @@ def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Si
             notes.append(f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out")
     for group in streams.groups(packet):
         stream = streams.of(packet, group)
+        for change in streams.units.changed(stream, packet, group):
+            if streams.units.is_new(stream, change):
+                notes.append(f"line {packet.line}: {change.name}: {change}")
         for i in group:
             name = packet.names[i]
-            unit = packet.key("Y_Unit_Label", i) or split_unit(name)[1] or None
-            known = signals.setdefault((stream, name), Signal(name, stream, unit))
-            if known.unit != unit:
-                notes.append(f"{name}: its unit changes from '{known.unit}' to '{unit}' in line {packet.line}")
+            known = signals.setdefault((stream, name), Signal(name, stream, unit_of(packet, i)))
+            if known.unit is None and (unit := unit_of(packet, i)) is not None:
+                notes.append(f"{name}: only line {packet.line} says its unit, '{unit}'")
         text = comment_name([packet.names[i] for i in group])
         signals.setdefault((stream, text), Signal(text, stream, None, "str"))

@@ -8,6 +8,7 @@ import numpy as np
 
 from thermodata.plugin import Float1D
 from thermodata_reader_crio.lvm.header import Packet
+from thermodata_reader_crio.lvm.units import Units
 from thermodata_reader_crio.row_times import local_ns
 
 STREAM = "data"
@@ -21,14 +22,15 @@ def is_time(packet: Packet, channel: int) -> bool:
 
 @dataclass
 class Streams:
-    """Channels by stream. names: channels of a stream -> its name; apart: channels whose X column differs from that
-    of the others with equal headings, found by reading them."""
+    """Channels by stream. names: channels of a stream, sorted -> its name; apart: channels whose X column differs from
+    that of the others with equal headings, found by reading them; units: of the channels, as the headings say them."""
 
     names: dict[tuple[str, ...], str] = field(default_factory=dict)
     apart: dict[tuple[str, ...], list[int]] = field(default_factory=dict)
+    units: Units = field(default_factory=Units)
 
     def of(self, packet: Packet, group: list[int]) -> str:
-        key = tuple(packet.names[i] for i in group)
+        key = tuple(sorted(packet.names[i] for i in group))  # a later heading may name them in another order
         return self.names.setdefault(key, STREAM if not self.names else f"{STREAM}@{len(self.names) + 1}")
 
     def groups(self, packet: Packet) -> list[list[int]]:

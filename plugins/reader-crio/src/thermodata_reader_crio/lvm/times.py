@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.plugin import Bool1D, Float1D, Int1D, Source
+from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.rows.grid import Rows
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.lvm.header import Header, Packet
-from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns
+from thermodata_reader_crio.lvm.starts import Starts, said_start
+from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, seconds_ns
 
 
 class Times:
-    """The clock of one packet. first: its first rows."""
+    """The clock of one packet. first: its first rows; starts: of all packets of the file."""
 
-    def __init__(self, header: Header, packet: Packet, first: Rows, source: Source, notes: list[str]) -> None:
-        self.header, self.packet, self.source, self.notes = header, packet, source, notes
+    def __init__(self, header: Header, packet: Packet, first: Rows, starts: Starts, notes: list[str]) -> None:
+        self.header, self.packet, self.starts, self.notes = header, packet, starts, notes
         self.labview: dict[int, bool] = {}
         self.empty: set[int] = set()
         for x in {x for x in packet.x if x is not None}:
@@ -63,17 +64,14 @@ class Times:
 
     def _start(self, channel: int) -> int | None:
         """UTC of the packet's Date and Time (local, as the source's zone says); None where there is none."""
-        date = self.packet.key("Date", channel) or self.header.date
-        time = self.packet.key("Time", channel) or self.header.time
-        local = local_ns(date, time)
-        if local is None:
-            if date or time:
-                self._say(
-                    f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
-                    "times count from the start of the rows"
-                )
-            return None
-        return utc_ns(local, self.source.timezone, self.notes)
+        start = self.starts.utc(self.packet, channel, self.notes)
+        date, time = said_start(self.header, self.packet, channel)
+        if start is None and (date or time):
+            self._say(
+                f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
+                "times count from the start of the rows"
+            )
+        return start
 
     def _number(self, key: str, channel: int, default: float) -> float:
         text = self.packet.key(key, channel)

@@ -54,7 +54,7 @@ def describe(path: Path, source: Source) -> Recording:
             mine.append(Signal(time_name(topic, found.stamped[topic.name]), topic.name, "ns", "int64"))
         series = found.series.get(topic.name)
         signals += mine if series is None else series.signals(mine)
-    start = found.start_ns if signals and not found.relative else 0
+    start = None if found.relative else found.start_ns if signals else 0
     return Recording(
         tuple(signals), "relative" if found.relative else "absolute", start, found.complete, tuple(found.notes)
     )
