@@ -10,6 +10,7 @@ from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Float1D, Int1D
@@ -40,9 +41,9 @@ class Alignment:
 
 def start_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about a source without dates beside one that has them; None where none has, or where they last as
-    long in every test: then they begin and end together."""
+    long in every test: then they begin and end together. Of one whose dates are of other days, what it is off by."""
     if not group.files or not all(_undated(f) for f in group.files):
-        return None
+        return on_another_day(group, groups)
     for other in groups:
         if other is group or any(_undated(f) for f in other.files):
             continue
