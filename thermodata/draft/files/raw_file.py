@@ -11,6 +11,7 @@ from typing import Any
 
 from thermodata.archive.members import size_of
 from thermodata.archive.unpacked import held
+from thermodata.draft.files.ini_beside import offered_by_ini
 from thermodata.draft.files.letters_of_files import common, letters_of
 from thermodata.draft.files.sample import Sample, sample_of
 from thermodata.draft.files.sheets import sheet_like, sheets_of
@@ -203,7 +204,8 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:
                 raise
-            asked.append(Asked(question.ask, question.declare, question.times, begins_s=question.begins_s))
+            told = offered_by_ini(full) if question.ask.startswith("period") else ""
+            asked.append(Asked(question.ask + told, question.declare, question.times, begins_s=question.begins_s))
             table = merged(table, question.meanwhile)
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]

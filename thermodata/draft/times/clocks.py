@@ -57,7 +57,9 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
             begins = _counts_from(group)
             late = max(map(abs, begins.values()), default=0) > NEAR_NS
             if late or (abs(there - here) > NEAR_NS and not open_period):
-                alike = open_period or abs(there - here) <= NEAR_NS
+                # of rows at an unknown period nobody knows how long they last
+                unknown = any(a.ask.startswith("period") for f in files for a in f.asked)
+                alike = open_period or unknown or abs(there - here) <= NEAR_NS
                 own = "" if alike else f", and lasts {_hours(there)} h in {test} beside {_hours(here)} h of its own"
                 from_ = f"; its times begin at {in_words(begins[test])} in {test}" if late and test in begins else ""
                 also = " beside that clock" if late else ""
