@@ -166,8 +166,8 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
             first, unit, basis=("unit",), questions=(f"quantity: the name says {against[0]}, the unit {first}",)
         )
     if first == "position" and (axis_of(own) or "") in ("x", "y", "z") and _of_a_probe(own):
-        asked = "quantity: displacement, or the position of the axis?"
-        return Guess("displacement", unit, basis=("name", "unit"), questions=(asked,))
+        how = "quantity: displacement, or the position of the axis?"
+        return Guess("displacement", unit, basis=("name", "unit"), questions=(how,))
     if first == "position" and axis_of(own) is None:
         return Guess("position", unit, basis=("unit",), questions=("quantity: a length: position, or displacement?",))
     return Guess(first, unit, basis=("unit",))
