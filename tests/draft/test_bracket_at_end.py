@@ -157,3 +157,19 @@ def test_of_a_share_of_one_1_is_100_per_cent() -> None:
 def test_the_index_of_an_array_is_no_unit(name: str) -> None:
     found = guess(name, None, "float64", values_of(np.linspace(20.0, 38.0, 200)))
     assert "no unit" not in found.comment()
+
+
+def test_so_many_of_a_unit_in_brackets_are_named_in_the_question() -> None:
+    found = guess("102 X drift (0.0001 in)", None, "float64", values_of(np.linspace(-0.56, 1.11, 60)))
+    assert found.quantity == "displacement"
+    assert [q for q in found.questions if q.startswith("unit:")] == [
+        'unit: "0.0001 in"? the name says it, of each count, or as a range (values -0.56 to 1.11)'
+    ]
+
+
+@pytest.mark.parametrize(("name", "named"), [("X Abs (in)", "in"), ("X Abs (2)", None)])
+def test_a_unit_in_brackets_is_named_where_nothing_tells_the_quantity(name: str, named: str | None) -> None:
+    found = guess(name, None, "float64", values_of(np.linspace(1.9, 17.7, 60)))
+    assert found.why_not is not None
+    assert ("the name says" in found.why_not) is (named is not None)
+    assert named is None or f"the name says '{named}'" in found.why_not

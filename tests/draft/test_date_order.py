@@ -143,3 +143,32 @@ def test_a_day_in_the_name_that_only_the_other_order_has_is_asked(
     (source,) = drafted(tmp_path).values()
     assert source.table == {"time": {"format": "unknown" if asked else order}}
     assert any(f"the day in the name of {name}.csv fits" in q for q in source.questions) is asked
+
+
+def begun(path: Path, start: str) -> None:
+    rows = [f"{k},{5 * k}.000,{0.01 * k:.3f},{20 + k / 100:.3f}" for k in range(120)]
+    path.write_text("\n".join([f"Start Time,{start}", "Scan,Elapsed (s),Z drift (um),Bed (C)", *rows, ""]), "utf-8")
+
+
+def test_am_and_pm_leave_day_and_month_of_a_start_open(tmp_path: Path) -> None:
+    """British and Australian loggers write the day first with them."""
+    begun(tmp_path / "a.csv", "03/06/2026 08:00:00 AM")
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"start": "unknown"}}
+    (asked,) = [q for q in source.questions if "dmy or mdy" in q]
+    assert asked.startswith("start: dmy or mdy? the head says 'Start Time: 03/06/2026 08:00:00 AM'")
+    (tmp_path / "sure").mkdir()
+    begun(tmp_path / "sure" / "a.csv", "13/06/2026 08:00:00 AM")
+    (source,) = drafted(tmp_path / "sure").values()
+    assert not source.table
+
+
+@pytest.mark.parametrize("day", [3, 18])
+def test_am_and_pm_of_dates_are_no_evidence(tmp_path: Path, day: int) -> None:
+    log(tmp_path / "a.csv", datetime(2025, 11, day, 8), "%d/%m/%Y")
+    log(tmp_path / "b.csv", datetime(2025, 11, 4, 8), "%d/%m/%Y")
+    text = (tmp_path / "b.csv").read_text("utf-8").splitlines()
+    stamped = [f"{t} AM,{rest}" for t, rest in (line.split(",", 1) for line in text[1:] if " 08:" in line)]
+    (tmp_path / "b.csv").write_text("\n".join([text[0], *stamped, ""]), "utf-8")
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown" if day == 3 else "dmy"}}

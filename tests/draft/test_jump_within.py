@@ -39,3 +39,16 @@ def test_a_log_that_begins_with_a_jump_test(
     if asked:
         assert "in the first 120 s of W01.csv" in drafted["W01"][0] or "121 s" in drafted["W01"][0]
         assert "7198 s]" in drafted["W01"][0]
+
+
+@pytest.mark.parametrize(("digits", "of_drift", "asked"), [(1, 0.5, False), (20, 0.5, True), (20, 0.02, False)])
+def test_steps_of_the_last_digit_or_of_little_are_no_jump_test(
+    tmp_path: Path, digits: int, of_drift: float, asked: bool
+) -> None:
+    t = np.arange(3600) * 2.0
+    step = digits * 1e-4
+    volts = 5 + step / of_drift * (1 - np.exp(-np.maximum(t - 300, 0) / 1500)) + np.where((t > 60) & (t < 120), step, 0)
+    columns = [numbers(t, 0), numbers(volts, 4), numbers(np.where(t > 300, 6000.0, 0.0), 0)]
+    text(tmp_path / "W01.csv", ["t [s]", "Z [V]", "n [rpm]"], columns, mark=",")
+    (test,) = draft_files(tmp_path).draft.tests
+    assert any(d.startswith("window: 'Z") for d in test.doubts) is asked

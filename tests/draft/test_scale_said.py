@@ -291,3 +291,12 @@ def test_a_factor_below_zero_is_proposed_with_its_sign_and_open_until_it_is_appl
     told = said.out + said.err
     assert (said.code, "'dZ_gain = -0.1', which the campaign file leaves open" in told) == (3 * lost, lost)
     assert ("{kind: linear, gain: -0.1}" in told) is lost
+
+
+def test_the_unit_behind_a_scale_is_named_with_it() -> None:
+    said = {"Scale_Gain": "100", "Scale_Offset": "0", "Scale_Unit": "degC"}
+    signal = Signal("Pt_rear", "", "V", "float64", None, said)
+    (asked,) = [q for q in with_scale_asked(guess_of(signal), {"a.tdms": signal}).questions if "the file says" in q]
+    assert "'Scale_Gain = 100'" in asked
+    assert "'Scale_Unit = degC'" in asked
+    assert "scale_Pt_rear: {kind: linear, gain: 100 degC/V}" in asked

@@ -21,7 +21,7 @@ def _seen(low: float, high: float) -> Values:
     [
         ("/drive.motor_power_kw", 1, 7, "power", "kW"),
         ("power_hp", 1, 9, "power", "hp"),
-        ("/probe.probe_z_m", 0, 3e-5, "position", "m"),  # asked: or a displacement?
+        ("/probe.probe_z_m", 0, 3e-5, "displacement", "m"),  # asked: or a displacement?
         ("probe_z_m", 0, 30, "displacement", None),  # no tool is displaced by 30 m
         ("mc/probe/dZ_um/value", 0, 30, "displacement", "um"),
         ("/probe/dZ_um.data", 0, 30, "displacement", "um"),

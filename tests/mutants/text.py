@@ -145,11 +145,16 @@ MUTANTS = [
     text("file/letters.py", "total += 0.6 * math.log(", "total -= 0.6 * math.log(", "words speak against themselves"),
     text("file/letters.py", '_SIGNS.sub(b" ", data) if signs else data', "data", "a power is a Polish letter"),
     # ---- how times are written
-    text("times/time_formats.py", 'return "dmy"\n', 'return "mdy"\n', "month first though dots stand between"),
     text(
         "times/time_formats.py",
-        'and "mdy" in left:\n        return "mdy"',
-        'and "mdy" in left:\n        return "dmy"',
+        'return forms["dmy"]\n',
+        'return forms["mdy"]\n',
+        "month first though dots part it",
+    ),
+    text(
+        "times/time_formats.py",
+        'return replace(forms["mdy"]',
+        'return replace(forms["dmy"]',
         "AM and PM with the day first",
     ),
     text("times/time_formats.py", "if shares[o] == best]", "]", "a day above 12 decides nothing"),

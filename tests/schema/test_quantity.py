@@ -137,6 +137,9 @@ def test_what_has_no_number_is_refused(text: object) -> None:
 
 def test_a_value_needs_its_unit_unless_it_is_zero() -> None:
     assert value_in("10 min", "s") == 600.0
+    assert value_in("61365 h 1 s", "s") == 61365 * 3600 + 1
+    assert value_in("-1 d 2 h 30 min", "s") == -(26.5 * 3600)
+    assert value_in("12 min50.5s", "s") == 770.5
     assert value_in(0, "s") == 0.0
     with pytest.raises(UsageError, match="without a unit"):
         value_in(10, "s")

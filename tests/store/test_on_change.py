@@ -197,3 +197,24 @@ def test_rows_stand_until_just_before_the_next_one() -> None:
     found, values = with_steps(t, np.array([1.0, 1.0, 2.0, 3.0]))
     assert (found / 1e9).tolist() == [0, 59, 60, 61, 199, 200]
     assert values.tolist() == [1, 1, 1, 2, 2, 3]
+
+
+def test_a_log_that_is_written_on_change_ends_with_its_last_row(tmp_path: Path) -> None:
+    """Its median step says nothing of how long it lasts."""
+    minutes = range(240)
+    rows = "".join(f"2026-05-11T{6 + m // 60:02d}:{m % 60:02d}:00Z;{20 + 0.01 * m}\n" for m in minutes)
+    (tmp_path / "day_daq.csv").write_text("timestamp;dZ [um]\n" + rows)
+    changes = [(h, s) for h in (6, 7, 8) for s in range(20)] + [(9, 58 * 60)]  # every second, for a while each hour
+    (tmp_path / "day_plc.csv").write_text(
+        "timestamp;n [rpm]\n" + "".join(f"2026-05-11T{h:02d}:{s // 60:02d}:{s % 60:02d}Z;{s}\n" for h, s in changes)
+    )
+    probe = "quantity: displacement, unit: um, axis: Z, at: tcp, relative_to: table"
+    (tmp_path / "campaign.yaml").write_text(
+        CAMPAIGN.replace(
+            "T_b: {source: daq, signal: T, quantity: temperature, unit: degC, at: spindle.bearing.front}",
+            f'dZ: {{source: daq, signal: "dZ [um]", {probe}}}',
+        )
+    )
+    notes = ingest(Store(tmp_path / "store", create=True), tmp_path / "campaign.yaml").notes
+    assert not [n for n in notes if "long before" in n]
+    assert not [n for n in ingest(Store(tmp_path / "store"), tmp_path / "campaign.yaml").notes if "long before" in n]

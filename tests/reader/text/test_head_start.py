@@ -10,6 +10,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
+from thermodata.reader.text.preamble.begin import BY_HALF
 from thermodata.reader.text.preamble.head_start import head_start, unread_start
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
@@ -290,3 +291,8 @@ def test_a_start_with_its_offset_in_brackets_counts(zone: str) -> None:
 def test_what_stands_behind_a_start_and_is_no_offset_does_not(zone: str) -> None:
     said = head_start([["Start time:", f"2026-03-02 08:00:00 {zone}"]])
     assert said is None or not said.zoned
+
+
+def test_a_start_that_is_month_first_for_its_half_of_the_day_says_so(tmp_path: Path) -> None:
+    said = [read(tmp_path, [f"Start Time;{day} 08:00:00 AM"], NUMBERS)[2] for day in ("03/06/2026", "03/16/2026")]
+    assert [any(BY_HALF in n for n in notes) for notes in said] == [True, False]

@@ -11,6 +11,7 @@ from typing import Any
 
 from thermodata.archive.members import size_of
 from thermodata.archive.unpacked import held
+from thermodata.draft.files.ini_beside import offered_by_ini
 from thermodata.draft.files.letters_of_files import common, letters_of
 from thermodata.draft.files.sample import Sample, sample_of
 from thermodata.draft.files.sheets import sheet_like, sheets_of
@@ -19,7 +20,7 @@ from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
 from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
-from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN, UNREAD
+from thermodata.reader.text.preamble.begin import BY_HALF, EITHER, NOT_TAKEN, UNREAD
 from thermodata.reader.text.times.unpadded import UNPADDED
 from thermodata.reader.times.open_questions import ASK, UNKNOWN, YEAR
 from thermodata.reader.times.zone import NO_ZONE
@@ -31,6 +32,9 @@ _ASSUMED = (
 )
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
+_FORMAT: Mapping[str, Any] = {"time": {"format": UNKNOWN}}
+_BY_HALF = "with AM or PM most loggers write the month first, British and Australian ones the day"
+_NO_START = "none if it is no start"
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,16 +195,17 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     while True:
         try:
             recording = described(who, full, replace(file, table=table or None).source)
-            open_start = next((n for n in recording.notes if EITHER in n), None)
+            open_order = next((o for n in recording.notes if (o := _open_order(n)) is not None), None)
             # a note may quote a file that says so itself: asked once
-            if open_start is None or any(one.declare == _START for one in asked):
+            if open_order is None or any(one.declare == open_order.declare for one in asked):
                 break
-            asked.append(Asked(_asked_order(open_start), _START))
-            table = merged(table, {"time": {"start": "dmy"}})
+            asked.append(open_order)
+            table = merged(table, {"time": dict.fromkeys(open_order.declare["time"], "dmy")})
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:
                 raise
-            asked.append(Asked(question.ask, question.declare, question.times, begins_s=question.begins_s))
+            told = offered_by_ini(full) if question.ask.startswith("period") else ""
+            asked.append(Asked(question.ask + told, question.declare, question.times, begins_s=question.begins_s))
             table = merged(table, question.meanwhile)
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
@@ -218,9 +223,18 @@ def _without_times(recording: Recording, times: Set[str]) -> Recording:
     return replace(recording, signals=left) if left else recording
 
 
-def _asked_order(note: str) -> str:
-    """The question of a note on a start whose day and month may be either way round."""
-    return f"start: dmy or mdy? {note.split(EITHER)[0].rstrip(', ')}, which may be either; none if it is no start"
+def _open_order(note: str) -> Asked | None:
+    """The question of a note on a start or on dates whose day and month may be either way round; None of others."""
+    if BY_HALF in note and note.startswith("dates read as"):
+        return Asked(f"format of the dates: dmy or mdy? {_BY_HALF}", _FORMAT)
+    if EITHER in note:
+        return Asked(
+            f"start: dmy or mdy? {note.split(EITHER)[0].rstrip(', ')}, which may be either; {_NO_START}", _START
+        )
+    if BY_HALF in note:
+        said = re.sub("^.* above the rows: ", "the head says ", note.split(", read " + BY_HALF)[0])
+        return Asked(f"start: dmy or mdy? {said}, which may be either: {_BY_HALF}; {_NO_START}", _START)
+    return None
 
 
 def _asked_start(note: str) -> str:

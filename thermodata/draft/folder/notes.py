@@ -26,6 +26,7 @@ _LARGEST, _HEAD, _MOST_LINES = 100_000, 4096, 40  # bytes of a text, of the head
 _SHOWN = 80
 _CELLS = re.compile(r"[\t|;,]")
 _NUMBERS = re.compile(r"^\d[\d._-]*[_\- .]")
+_SHORT = re.compile(r"[^\W\d_]{1,12}\d+(?=[_\- .])")  # a word with its number, which more stands behind
 _SHORTEST = 3  # letters of a name without its number
 _AXES = frozenset({"axes", "achsen", "osy", "assi", "ejes", "eixos"})
 _MARKS = " \t-*•#>"
@@ -59,7 +60,11 @@ def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[Ra
 
 
 def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
-    called = _but_numbers(tests) | {name: test for test, files in tests.items() for name in _names(test, files)}
+    called = (
+        _begins(tests)
+        | _but_numbers(tests)
+        | {name: test for test, files in tests.items() for name in _names(test, files)}
+    )
     lines: dict[str, list[Note]] = {}
     shared: dict[str, list[Note]] = {}  # of lines that name several
     for path in texts:
@@ -117,6 +122,13 @@ def _but_numbers(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, str]:
         for test, name in bare.items()
         if count[name] == 1 and sum(map(str.isalpha, name)) >= _SHORTEST and not _is_of_trade(name)
     }
+
+
+def _begins(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, str]:
+    """What a test is called for short, where no other begins so: 'V01' is 'V01_4000'."""
+    each = [(match[0].casefold(), test) for test in tests if (match := _SHORT.match(test)) is not None]
+    count = Counter(name for name, _ in each)
+    return {name: test for name, test in each if count[name] == 1}
 
 
 def _is_of_trade(name: str) -> bool:

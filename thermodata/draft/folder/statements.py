@@ -1,9 +1,12 @@
-"""What one line of notes says of several tests: 'P1, P2: calibration; P3: verification'."""
+"""What one line of notes says of several tests: 'P1, P2: calibration; P3: verification', and of their roles without a
+colon too: 'P1, P2 calibration, P3 verification.'"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+
+from thermodata.draft.words.roles import said_by_list
 
 _MARKS = " \t-*•#>"
 _BETWEEN = re.compile(r"\s*[,&+/、和及]\s*|\s+(?:and|und|en|et|e|y|i|a|og|och)\s+", re.IGNORECASE)
@@ -18,6 +21,31 @@ def statements(line: str, called: Mapping[str, str]) -> list[tuple[str, str]]:
     """(test, what is said of it), where a line names several tests, each with a colon behind it or behind them all;
     empty for a line of one. called: name in small letters -> test."""
     text = line.strip().strip(_MARKS)
+    return _behind_colons(text, called) or _roles(text, called)
+
+
+def _roles(text: str, called: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Of names with a role behind them, of which one may stand behind several names."""
+    found: list[tuple[str, str]] = []
+    waiting: list[str] = []
+    for piece in _parts(text):
+        name, _, rest = piece.partition(" ")
+        test = called.get(name.casefold())
+        waiting = [*waiting, test] if test is not None else []
+        if rest.strip():
+            is_role = said_by_list({"": rest}) is not None
+            found += [(one, rest.strip()) for one in waiting if is_role]
+            waiting = []
+    return found if len({test for test, _ in found}) > 1 else []
+
+
+def _parts(text: str) -> Iterator[str]:
+    """What stands between the marks and the words between names."""
+    for sentence in re.split(r"[.;。；](?:\s+|$)", text):
+        yield from (piece.strip(" \t'\"`") for piece in _BETWEEN.split(sentence) if piece.strip())
+
+
+def _behind_colons(text: str, called: Mapping[str, str]) -> list[tuple[str, str]]:
     heads: list[tuple[int, int, list[str]]] = []
     for colon in re.finditer(r"[:：]", text):
         begin = heads[-1][1] if heads else 0

@@ -12,12 +12,14 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.probes.jumps import staircase
 from thermodata.draft.signals.guess import guess_of
+from thermodata.plugin import Float1D
 from thermodata.schema.words.sentences import with_count
 
 _LONGEST_S = 1800.0  # of a jump test at the beginning of a test
 _OF_TEST = 0.2  # and of its length
 _TURNS_RPM = 20.0
 _BACK = 0.15  # of the largest step: what the steps of a probe add up to that comes back
+_DIGITS, _OF_RANGE = 5, 0.1  # the largest step at least, and as a share of what the probe goes through in the test
 _LEAST_ROWS = 40
 _SHOWN = 4
 
@@ -67,9 +69,16 @@ def _moved_until(course: Course | None, first_ns: int, until_s: float) -> float 
     if np.count_nonzero(early) < _LEAST_ROWS:
         return None
     found = staircase(Course(course.t_ns[early], course.values[early]))
-    if found is None or not _comes_back(found[0]):
+    if found is None or not _comes_back(found[0]) or not _is_large(found[0], course.values):
         return None
     return float(course.t_ns[early][0] - first_ns) / 1e9 + found[0][-1].to_s
+
+
+def _is_large(steps: Sequence[Step], values: Float1D) -> bool:
+    """Whether the steps are more than the last digit of a quiet probe that flickers. values: of the whole test."""
+    levels = np.unique(values[np.isfinite(values)])
+    largest = max(abs(float(s.size)) for s in steps)
+    return largest >= max(_DIGITS * float(np.diff(levels).min()), _OF_RANGE * float(np.ptp(levels)))
 
 
 def _comes_back(steps: Sequence[Step]) -> bool:

@@ -49,6 +49,8 @@ def unknown(name: str, quantity: str | None) -> str | None:
     if said is None or quantity in (None, "state", "label"):
         return None
     bare = said.casefold().rstrip(".")
+    if scaled(said, quantity):
+        return said
     if _OF_COUNTS.fullmatch(bare):
         return said
     if bare in _WORDS or _is_word(words(said)) or _INDEX.fullmatch(bare):
@@ -58,6 +60,18 @@ def unknown(name: str, quantity: str | None) -> str | None:
     # a letter alone is the name of one of several
     unit = _NUMBER.sub("", said.rstrip("."))
     return said if len(bare) > 1 and "/" not in unit and not unit.isdigit() and is_unit(unit) else None
+
+
+def scaled(said: str, quantity: str | None) -> bool:
+    """Whether brackets hold so many of a unit of the quantity: '0.0001 in'."""
+    unit = _NUMBER.sub("", said)
+    return unit != said and quantity is not None and is_unit(unit) and units.may_be(unit, quantity)
+
+
+def any_unit(name: str) -> str | None:
+    """What stands in the brackets at the end of a name of which nothing tells the quantity, where it may be a unit."""
+    said = _said(name)
+    return said if said is not None and len(said) > 1 and is_unit(said) and not _INDEX.fullmatch(said) else None
 
 
 def _said(name: str) -> str | None:

@@ -17,7 +17,7 @@ from thermodata.draft.signals.implied_unit import with_unit
 from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
-from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
+from thermodata.draft.signals.quantity import NO_READING, NOTHING, Guess, quantity_of, range_text
 from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
@@ -121,6 +121,8 @@ def guess(
     found = of_quantity(known)
     if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(said.last.strip()):
         return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
+    if found.quantity is None and (found.why_not or "").startswith(NOTHING) and not known:
+        return _with_unit_named(found, said.whole_last)
     if found.quantity is None or found.quantity == "label":
         return found
     if found.quantity in _RATES:
@@ -210,8 +212,19 @@ def _asked_by_name(found: Guess, name: _Name, unit: str | None, written: str | N
             found = replace(found, sure=False, questions=(*found.questions, asked))
         if said := bracket_at_end.unknown(name.whole_last, found.quantity):
             asked = f"unit: the name says '{said}', which is no unit of this known here ({range_text(values)})"
+            if bracket_at_end.scaled(said, found.quantity):
+                asked = f'unit: "{said}"? the name says it, of each count, or as a range ({range_text(values)})'
+                found = replace(found, questions=tuple(q for q in found.questions if not q.startswith("unit:")))
             found = replace(found, unit=None, sure=False, instead_of=None, questions=(*found.questions, asked))
     return with_factor_asked(found, name.whole_last)
+
+
+def _with_unit_named(found: Guess, name: str) -> Guess:
+    """What is asked of a signal that nothing tells of, with what may be the unit in its name: the inch of 'X (in)'."""
+    unit = bracket_at_end.any_unit(name)
+    if unit is None or found.why_not is None:
+        return found
+    return replace(found, why_not=found.why_not.replace(NOTHING, f"{NOTHING} the name says '{unit}'", 1))
 
 
 def _in_brackets(name: str) -> str | None:

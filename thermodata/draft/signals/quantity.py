@@ -22,6 +22,11 @@ _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp bl
 _DELTA = re.compile(r"(?:d|δ) ?t(?:emp)?\b")  # 'dT_front', which begins at 0
 _NO_HALL_C = 10.0  # colder than any machine that stands in a hall
 # what creeps there between 5 and 80 is a temperature
+_NEST = "nest. nid. nido."  # that holds the probes
+_SIGNAL_MA = (3.5, 21.0)  # NAMUR NE 43: what a sensor sends, with the marks of its failures
+# places of parts whose current is that of a drive, and of ones that have none
+_DRIVES = frozenset({"motor", "spindle", "pump", "fan", "drive"})
+_OF_SENSORS = frozenset({"bearing", "bed", "column", "table", "hall", "floor", "outside", "window", "probe", "coolant"})
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
 
 
@@ -154,15 +159,36 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
         return Guess("displacement", unit, basis=("name", "unit"))  # 'probe X', in volts
     if first == "voltage":
         return Guess("voltage", unit, basis=("unit",), questions=("what does it measure? then: quantity, calibration",))
-    if normal == "mA" and against:
-        return Guess("current", unit, basis=("unit",), questions=(f"a sensor's 4..20 mA? of {against[0]}",))
+    if normal == "mA" and (sent := _of_a_sensor(against, own, values)):
+        return Guess("current", unit, basis=("unit",), questions=(sent,))
     if against and first not in ("temperature", "rotational_speed"):
         return Guess(
             first, unit, basis=("unit",), questions=(f"quantity: the name says {against[0]}, the unit {first}",)
         )
+    if first == "position" and (axis_of(own) or "") in ("x", "y", "z") and _of_a_probe(own):
+        how = "quantity: displacement, or the position of the axis?"
+        return Guess("displacement", unit, basis=("name", "unit"), questions=(how,))
     if first == "position" and axis_of(own) is None:
         return Guess("position", unit, basis=("unit",), questions=("quantity: a length: position, or displacement?",))
     return Guess(first, unit, basis=("unit",))
+
+
+def _of_a_sensor(against: list[str], own: str, values: Values | None) -> str | None:
+    """What to ask of milliamperes that are a sensor's signal by the quantity or the place in the name, or by where they
+    stand; None of a drive's."""
+    places = places_in(own)
+    low, high = (0.0, 0.0) if values is None else values.usual
+    if against:
+        return f"a sensor's 4..20 mA? of {against[0]}"
+    if (_SIGNAL_MA[0] <= low and high <= _SIGNAL_MA[1] and not places & _DRIVES) or places & _OF_SENSORS:
+        span = "" if values is None else f" ({range_text(values)})"
+        return f"a sensor's 4..20 mA?{span} then quantity: what it measures, and a calibration"
+    return None
+
+
+def _of_a_probe(own: str) -> bool:
+    """Whether a name with an axis says a probe, and no other place."""
+    return (places_in(own) == {"probe"}) or (not places_in(own) and says(_NEST, own))
 
 
 def _in_degc(value: float, unit: str) -> float:

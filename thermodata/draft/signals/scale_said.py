@@ -9,7 +9,7 @@ from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.signals.values import Values
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.preamble.stated_scale import line_that_applies, stated_scales
+from thermodata.reader.text.preamble.stated_scale import line_that_applies, stated_scales, stated_unit
 from thermodata.schema.words.sentences import with_count
 
 _FILES = 3  # that are shown
@@ -63,7 +63,10 @@ def _asked(signal: Signal, unit: str | None) -> Iterator[str]:
     numbers = [s for s in stated if s.kind != "sign"]
     if numbers:
         said, is_that = " and ".join(map(str, numbers)), "are these" if len(numbers) > 1 else "is that"
-        way = line_that_applies(numbers, split_unit(signal.name)[0], unit)
+        scaled = stated_unit(signal)
+        way = line_that_applies(numbers, split_unit(signal.name)[0], unit, scaled[1] if scaled else None)
+        if scaled:
+            said += f", and '{scaled[0]} = {scaled[1]}'"
         yield f"the file says {said}: {is_that} in the values? then scaled: true; where they still need it: {way}"
     if any(s.kind == "factor" and s.number < 0 for s in numbers):
         yield "it turns the sign, which is kept as it stands in the file"

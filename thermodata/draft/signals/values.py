@@ -18,6 +18,7 @@ from thermodata.schema.units.quantity import linear_conversion
 _FEW = 8
 _NUMERAL, _MOSTLY = re.compile(r"[-+]?\d*[.,]?\d+([eE][-+]?\d+)?"), 0.9
 _LEAST_COUNTED = 10
+_NINES = re.compile(r"9{2,}\.?9{2,}")  # of any length, as a laser writes -99999.99999
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
 _MANY, _TAIL = 200, 0.005  # of so many values a share at each end may be spikes
@@ -143,11 +144,12 @@ def bare_word(cell: object) -> str:
 
 
 def _readings(x: Float1D) -> Float1D:
-    """Without a logger's marks for "over range" and "no value", which are no reading: 1e+38, -9999, 1000000. x: shape
-    (n,), finite; as it is where nothing else is left."""
+    """Without a logger's marks for "over range" and "no value", which are no reading: 1e+38, -9999, -99999.99999,
+    1000000. x: shape (n,), finite; as it is where nothing else is left."""
     if not x.size:
         return x
-    marks = impossible(x, "displacement") | sentinels(x, run_stats(x))
+    nines = np.array([end for end in (x.min(), x.max()) if _NINES.fullmatch(f"{abs(end):.10g}")], np.float64)
+    marks = impossible(x, "displacement") | sentinels(x, run_stats(x), written=nines)
     largest = float(np.abs(x).max())
     if largest >= _OVERFLOW and np.log10(largest) == round(np.log10(largest)):
         # a full number of zeros, far above all else: catman writes 1000000

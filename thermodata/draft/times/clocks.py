@@ -10,6 +10,7 @@ from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Float1D, Int1D
@@ -40,9 +41,9 @@ class Alignment:
 
 def start_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about a source without dates beside one that has them; None where none has, or where they last as
-    long in every test: then they begin and end together."""
+    long in every test: then they begin and end together. Of one whose dates are of other days, what it is off by."""
     if not group.files or not all(_undated(f) for f in group.files):
-        return None
+        return on_another_day(group, groups)
     for other in groups:
         if other is group or any(_undated(f) for f in other.files):
             continue
@@ -56,7 +57,9 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
             begins = _counts_from(group)
             late = max(map(abs, begins.values()), default=0) > NEAR_NS
             if late or (abs(there - here) > NEAR_NS and not open_period):
-                alike = open_period or abs(there - here) <= NEAR_NS
+                # of rows at an unknown period nobody knows how long they last
+                unknown = any(a.ask.startswith("period") for f in files for a in f.asked)
+                alike = open_period or unknown or abs(there - here) <= NEAR_NS
                 own = "" if alike else f", and lasts {_hours(there)} h in {test} beside {_hours(here)} h of its own"
                 from_ = f"; its times begin at {in_words(begins[test])} in {test}" if late and test in begins else ""
                 also = " beside that clock" if late else ""

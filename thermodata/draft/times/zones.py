@@ -11,6 +11,7 @@ from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.clock_said import zone_said
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import EXAMPLE, named_zone, zone_in
@@ -54,7 +55,7 @@ def zone_question(group: Group, groups: Sequence[Group], folder: Path | None = N
     each = _each_ahead(group, groups)
     if each is None:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
-        return asked + which_pass(group, groups, likely, folder)
+        return asked + which_pass(group, groups, likely, folder) + _beside(folder, groups)
     asked = f"timezone? local times, {_shown({e.hours for e in each})} from the other sources' UTC"
     if more := _as_well(each):
         hours = sorted({e.hours + m for e in each for m in (0, *more)})
@@ -63,6 +64,12 @@ def zone_question(group: Group, groups: Sequence[Group], folder: Path | None = N
         )
         return f"{asked}{longer}. {likely}{said}"
     return f"{asked}{_changes(each)}{_zones_of([(e.hours, e.begin_ns) for e in each], likely, group)}{said}"
+
+
+def _beside(folder: Path | None, groups: Sequence[Group]) -> str:
+    """What texts beside the logs say of the zone."""
+    logs = {f.path for g in groups for f in (*g.files, *g.calibrations)}
+    return "" if folder is None or not folder.is_dir() else zone_said(folder, logs)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from thermodata.errors import UsageError, nearest
 from thermodata.schema.units.prefixes import usual
 from thermodata.schema.units.scale import counted_unit, scaled_unit
 from thermodata.schema.units.spelling import UNIT_SPELLING, bare_unit, plain_letters, spelled
+from thermodata.schema.units.time_of_parts import time_of_parts
 
 Quantity = Literal[
     "displacement",
@@ -271,7 +272,10 @@ def split_value(text: str | float | int) -> tuple[float, str]:
 
 
 def value_in(text: str | float | int, unit: str) -> float:
-    """'10 min' in 's' -> 600.0. A bare number is taken only where it is 0, for 0 is 0 in any unit."""
+    """'10 min' in 's' -> 600.0. A bare number is taken only where it is 0, for 0 is 0 in any unit; a time may have
+    several parts: '1 h 30 min'."""
+    if unit == "s" and (parts_s := time_of_parts(text)) is not None:
+        return parts_s
     value, written = split_value(text)
     if not written:
         if value == 0 or unit in ("1", "dimensionless"):

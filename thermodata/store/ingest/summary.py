@@ -129,6 +129,7 @@ def _how_logs_stand(
         campaign,
         of_tests(inventory.sources, of_layers["source"]),
         of_tests(inventory.rows["quality_event"], of_layers["quality_event"]),
+        of_tests(inventory.rows["file"], of_layers["file"]),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.clock_pattern import BLANK, CLOCK, HALF
@@ -58,6 +58,7 @@ class TimeFormat:
     zoned: bool | None = None
     strptime: str | None = None  # a declared format with names of months and the like
     columns: int = 1  # that hold its parts, from its own on
+    supposed: bool = field(default=False, compare=False)  # month first for AM and PM alone, which British loggers write
     reads: Callable[[str], int] | None = None  # of what no pattern fits: nanoseconds of a cell, NAT where it is none
 
     @property

@@ -13,6 +13,7 @@ from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hou
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.odd_clocks import are_dashed_clocks
+from thermodata.reader.text.clocks.transposed import ADVICE, is_transposed
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside
 from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.header import split_unit
@@ -23,6 +24,7 @@ from thermodata.reader.text.times.spans import are_spans
 from thermodata.reader.text.times.time_cells import with_parts
 from thermodata.reader.times.time_units import SECONDS
 
+_HINT = "declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates"
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 
 
@@ -57,7 +59,7 @@ def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
         where=seen.where,
         got=", ".join(seen.names[:12]),
         expected="a column of dates, or one called time or with s, min or h as its unit",
-        hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
+        hint=ADVICE if is_transposed(seen) else _HINT,
     )
 
 

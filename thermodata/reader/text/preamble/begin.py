@@ -24,6 +24,7 @@ HEAD, NOT = "head", "none"  # the answers beside ORDERS
 ANSWERS = (*ORDERS, HEAD, NOT)
 NOT_TAKEN = "which is not taken for the start of the rows"
 UNREAD = "in which no date with a time of day is read"
+BY_HALF = "month first for AM or PM alone: format: dmy, or start: dmy above the rows, where the day stands first"
 EITHER = "whose day and month may be either way round"
 _ORDER = "declare table: {time: {start: dmy}}, mdy or ymd; start: none, where the rows do not begin then"
 _NOTHING = "no start stands above the rows, though time.start is '{}': they count from the start of the test"
@@ -38,13 +39,15 @@ _LONGEST = 60  # letters of a line of the head in a message
 @dataclass(frozen=True, slots=True)
 class Begin:
     """ns: the start since 1970, or the midnight before it where the rows hold times of day; local: in the time of the
-    place; of_day: whether they do; text: the lines that say so; order: the declared one of day and month."""
+    place; of_day: whether they do; text: the lines that say so; order: the declared one of day and month; supposed:
+    whether it is month first for AM or PM alone."""
 
     ns: int
     local: bool
     of_day: bool
     text: str
     order: str | None = None
+    supposed: bool = False
 
     def utc(self, since_ns: Int1D, timezone: str | None) -> Int1D:
         """UTC of times that count from the start [ns], shape (n,); NAT stays."""
@@ -55,7 +58,7 @@ class Begin:
 
     def note(self) -> str:
         what = "times of day are of the date" if self.of_day else "times count from the start"
-        return f"{what} that stands above the rows: '{self.text}'"
+        return f"{what} that stands above the rows: '{self.text}'{f', read {BY_HALF}' if self.supposed else ''}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,10 +164,10 @@ def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
         return None
     if first.of_day and (_are_times_of_day(said, first) or not (sure or first.near_zero)):
         taken = not said.zoned and (said.says >= Says.BARE or not sure)
-        return Begin(said.date_ns, True, True, said.text) if taken else None
+        return Begin(said.date_ns, True, True, said.text, supposed=said.supposed) if taken else None
     if said.clock_ns is None or (sure and (said.says < Says.RECORDED or not first.near_zero)):
         return None
-    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text)
+    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, supposed=said.supposed)
 
 
 def _are_times_of_day(said: HeadStart, first: FirstTimes) -> bool:

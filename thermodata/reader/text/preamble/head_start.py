@@ -47,7 +47,7 @@ _ZONED_LABEL = re.compile(
 class Moment:
     """A date, a time of day, or both, as one line says them. says: what its label is; text: the line, for messages;
     date_ns: since 1970, at midnight; clock_ns: in the day; zoned: whether it names its offset from UTC, and is in UTC;
-    either: what is open about its order of day and month."""
+    either: what is open about its order of day and month; supposed: whether it is month first for AM or PM alone."""
 
     says: Says
     text: str
@@ -55,6 +55,7 @@ class Moment:
     clock_ns: int | None = None
     zoned: bool = False
     either: bool = False
+    supposed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ class Unread:
 class HeadStart:
     """What the head says of the start. says: how sure it is that it is one; text: the lines, for messages; clock_ns:
     None where no line tells the time of day; either: its day and month may be either way round; several: other lines
-    say another start."""
+    say another start; supposed: as of `Moment`."""
 
     says: Says
     text: str
@@ -80,6 +81,7 @@ class HeadStart:
     zoned: bool = False
     either: bool = False
     several: bool = False
+    supposed: bool = False
 
 
 def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted: bool = False) -> HeadStart | None:
@@ -92,7 +94,7 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     clocks = [m for m in moments if m.date_ns is None]
     # a duration is written like a time of day, and is called "Recording time" too: only words for a start say which
     pairs = [
-        Moment(_of_two(a, b), f"{a.text}; {b.text}", a.date_ns, b.clock_ns, either=a.either)
+        Moment(_of_two(a, b), f"{a.text}; {b.text}", a.date_ns, b.clock_ns, either=a.either, supposed=a.supposed)
         for a, b in product(dates, clocks)
         if b.says >= Says.BARE
     ]
@@ -105,7 +107,7 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     first = max(found, key=lambda m: (m.says, m.zoned))
     several = any(m.says == first.says and not _same(m, first) for m in found)
     date = first.date_ns if first.date_ns is not None else 0
-    return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several)
+    return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several, first.supposed)
 
 
 def _of_two(date: Moment, clock: Moment) -> Says:
@@ -222,4 +224,4 @@ def _read_plain(text: str, says: Says, line: str, order: str | None) -> Moment |
     zoned = time_pattern.is_zoned(text, form)
     day = ns // DAY_NS * DAY_NS
     clocked = form.role == "datetime" and re.search(r"\d[:.h時时]\s?\d\d|T\d{4}", text) is not None
-    return Moment(says, line, day, ns - day if clocked or ns != day else None, zoned, either)
+    return Moment(says, line, day, ns - day if clocked or ns != day else None, zoned, either, form.supposed)

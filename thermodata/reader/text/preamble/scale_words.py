@@ -7,11 +7,11 @@ import re
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 
 _FACTOR = (
-    r"fa[kc]tors?|faktoren|scal(?:e|ing)(?:[ _-]?factor)?|skalierung(?:sfaktor)?|gains?|multiplier|multipli[kc]ator|"
-    r"slope|verstärkung|facteur|fattore|násobek|měřítko|steigung|1 (?:digit|count|lsb|bit|inkrement)|"
+    r"fa[kc]tors?|faktoren|scal(?:e|ing)(?:[ _-]?(?:factor|gain))?|skalierung(?:sfaktor)?|gains?|multiplier|"
+    r"multipli[kc]ator|slope|verstärkung|facteur|fattore|násobek|měřítko|steigung|1 (?:digit|count|lsb|bit|inkrement)|"
     r"(?:cal(?:ib(?:ration)?)?|conv(?:ersion)?|kalibrier|umrechnungs)[ _-]?fa[kc]tor"
 )
-_OFFSET = r"(?:add[_ ])?offsets?|nullpunkt|zero|intercept|achsenabschnitt"
+_OFFSET = r"(?:(?:add|scale)[_ ])?offsets?|nullpunkt|zero|intercept|achsenabschnitt"
 _TURNED = r"polarity|polarität|sign|vorzeichen|invert(?:ed)?"
 FACTOR = re.compile(_FACTOR, re.IGNORECASE)
 OFFSET = re.compile(_OFFSET, re.IGNORECASE)

@@ -12,9 +12,11 @@ from typing import Literal
 from thermodata.plugin import Signal
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
+from thermodata.schema.units.quantity import is_unit
 from thermodata.schema.units.scale import with_power_of_ten
 
 _TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
+_SCALED_UNIT = re.compile(r"(?i)scal(?:ed?|ing)[ _-]?(?:units?|einheit)")
 _LEAST, _MOST = 1e-12, 1e12
 Kind = Literal["factor", "offset", "sign"]
 
@@ -61,17 +63,25 @@ def _kind_of(key: str) -> tuple[str | None, Kind] | None:
     return next(((signal, kind) for pattern, kind in kinds if pattern.fullmatch(word)), None)
 
 
-def line_that_applies(stated: Sequence[Stated], name: str, unit: str | None) -> str:
+def stated_unit(signal: Signal) -> tuple[str, str] | None:
+    """(key, unit) of a property that says the unit behind the stated scale: 'Scale_Unit = degC' of a channel in V; None
+    where none does."""
+    each = ((key, text.strip()) for key, text in signal.properties.items() if _SCALED_UNIT.fullmatch(key))
+    return next(((key, text) for key, text in each if text and text != signal.unit and is_unit(text)), None)
+
+
+def line_that_applies(stated: Sequence[Stated], name: str, unit: str | None, scaled: str | None = None) -> str:
     """What a channel has in a campaign file that applies a factor and an offset. name: of its signal; unit: of its
-    values, as the file says it."""
+    values, as the file says it; scaled: behind the scale, where the file says it."""
     factors = [s.number for s in stated if s.kind == "factor"]
     offsets = [s.number for s in stated if s.kind == "offset"]
     if len(factors) > 1 or len(offsets) > 1:
         return "a calibration of kind linear, with what holds of them"
-    own = with_power_of_ten(factors[0], unit or "?") if factors and not offsets else None
+    own = with_power_of_ten(factors[0], unit or "?") if factors and not offsets and scaled is None else None
     if own is not None:
         return f'unit: "{own}"' + (f", instead_of: {unit}" if unit else "")
-    gain = f", gain: {factors[0]:g}" if factors else ""
-    offset = f", offset: {offsets[0]:g}" if offsets else ""
+    of_gain, of_offset = (f" {scaled}/{unit or '?'}", f" {scaled}") if scaled else ("", "")
+    gain = f", gain: {factors[0]:g}{of_gain}" if factors else ""
+    offset = f", offset: {offsets[0]:g}{of_offset}" if offsets else ""
     called = "scale_" + re.sub(r"\W+", "_", re.split(r"[/\\.]", name)[-1]).strip("_")
     return f"calibration: {called}, and {called}: {{kind: linear{gain}{offset}}} under calibrations"

@@ -21,6 +21,7 @@ from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
+    BY_HALF,
     NOT_TAKEN,
     Begin,
     declared_start,
@@ -208,8 +209,10 @@ def _of_times(groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> Iterat
     """Notes on how times are written. body: the sampled rows."""
     if any(g.once for g in groups):
         yield NOTE
-    for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
+    forms = [form for g in groups for form in g.formats if form.role != PART.role]
+    for text in dict.fromkeys(form.text for form in forms):
         if "DD/MM" in text or "MM/DD" in text:
-            yield f"dates read as {text}"
+            supposed = any(form.supposed for form in forms if form.text == text)
+            yield f"dates read as {text}{f', {BY_HALF}' if supposed else ''}"
     yield from (STANDS for g in groups if stands(body, g.group.time, g.formats))
     yield from (unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time)

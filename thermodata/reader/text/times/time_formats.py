@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 
@@ -148,7 +149,7 @@ def find_format(
             if orders:
                 if order is None:
                     _ask_for_year(few, where)
-                return forms[_order(orders, cells, more, forms, where)]
+                return _ordered(orders, cells, more, forms, where)
     full = [c for c in cells if c.strip()]
     other = next(
         (
@@ -189,30 +190,31 @@ def _goes_on(cells: Sequence[str], form: TimeFormat) -> bool:
     return bool((roomy or beyond) and (np.diff(ns) >= 0).all())
 
 
-def _order(
+def _ordered(
     orders: list[str],
     cells: Sequence[str],
     more: Callable[[], Sequence[str]],
     forms: Mapping[str, TimeFormat],
     where: str,
-) -> str:
+) -> TimeFormat:
+    """The form that the dates' order tells."""
     if len(orders) == 1:
-        return orders[0]
+        return forms[orders[0]]
     first = next(c.strip() for c in cells if c.strip())
     if "." in re.split(r"[ T]", first)[0]:
-        return "dmy"
+        return forms["dmy"]
     left = orders
     for some in (partial(_spread, cells, _MANY), more):
         shares = {o: share(_dates(some()), forms[o]) for o in left}
         best = max(shares.values())
         left = [o for o in left if shares[o] == best]
         if len(left) == 1:
-            return left[0]
+            return forms[left[0]]
     by_midnight = [o for o in left if _passes_midnight(more() or cells, forms[o])]
     if len(by_midnight) == 1:
-        return by_midnight[0]
+        return forms[by_midnight[0]]
     if re.search(r"[ap]\.?m", first, re.IGNORECASE) and "mdy" in left:
-        return "mdy"
+        return replace(forms["mdy"], supposed=True)
     raise QuestionError(
         "day and month of the dates could be either way round",
         where=where,

@@ -8,8 +8,12 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.tidy.clock.source_clock import recorded
+
 Rows = Mapping[str, Iterable[Mapping[str, Any]]]  # test -> its rows of the table `source`
 PAUSED_S = "paused_s"  # of a row: how long it logged nothing in between
+LASTS_S = "lasts_s"  # of a row: from its first to its last recorded time; absent where nothing tells it
 LEAST_S = 120.0  # by which two logs stand apart; people switch two loggers on within it
 
 
@@ -22,12 +26,15 @@ class LogEnds:
 
 
 def ends_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, LogEnds]:
-    """Of each source of a test that logs at even steps, on a clock: seconds from nowhere begin at 0 in every log."""
+    """Of each source of a test that logs on a clock: seconds from nowhere begin at 0 in every log. Of what is written
+    on change the rows and their median step tell no length: where `with_lengths` saw its files, these do."""
     found: dict[str, list[LogEnds]] = defaultdict(list)
     for row in rows:
         if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
             first = row["start_ns"] / 1e9
-            logged_s = row["step_s"] * (row["rows"] - 1) + row.get(PAUSED_S, 0.0)
+            logged_s = row.get(LASTS_S)
+            if logged_s is None:
+                logged_s = row["step_s"] * (row["rows"] - 1) + row.get(PAUSED_S, 0.0)
             found[row["source"]].append(LogEnds(first, first + logged_s))
     return {s: LogEnds(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
 
@@ -46,6 +53,27 @@ def with_pauses(rows: Rows, events: Rows) -> dict[str, list[dict[str, Any]]]:
             for r in of_test
         ]
     return found
+
+
+def with_lengths(rows: Rows, files: Rows) -> dict[str, list[dict[str, Any]]]:
+    """The rows, each with how long its files last. files: test -> rows of the table `file`."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for test, of_test in rows.items():
+        raws: dict[tuple[str, str], list[RawStream]] = defaultdict(list)
+        for file in files.get(test, ()):
+            if file["layer"] == "raw":
+                raws[file["source"], file["stream"]].append(RawStream.from_row(file))
+        lengths = {of: lasts_s for of, some in raws.items() if (lasts_s := _lasts_s(some)) is not None}
+        found[test] = [{**r, LASTS_S: lengths.get((r["source"], r["stream"]))} for r in of_test]
+    return found
+
+
+def _lasts_s(raws: list[RawStream]) -> float | None:
+    """[s]; None of several files whose times count from nowhere."""
+    if len(raws) > 1 and any(r.clock == "relative" and r.start_ns is None for r in raws):
+        return None
+    spans = [recorded(r) for r in raws]
+    return (max(last for _, last in spans) - min(first for first, _ in spans)) / 1e9
 
 
 def _is_of(row: Mapping[str, Any], source: str, stream: str | None) -> bool:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from thermodata.schema.files.campaign import Campaign
 from thermodata.store.ingest.told.beside_each_other import odd_clocks
-from thermodata.store.ingest.told.ends import Rows, with_pauses
+from thermodata.store.ingest.told.ends import Rows, with_lengths, with_pauses
 from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.offset_apart import offsets_apart
 from thermodata.store.ingest.told.whole_hours import whole_hours
 
 
-def how_logs_stand(campaign: Campaign, sources: Rows, events: Rows) -> list[str]:
-    """A sentence each. sources, events: test -> its rows of the tables `source` and `quality_event`, of all tests."""
-    rows = with_pauses(sources, events)
+def how_logs_stand(campaign: Campaign, sources: Rows, events: Rows, files: Rows) -> list[str]:
+    """A sentence each. sources, events, files: test -> its rows of the tables `source`, `quality_event` and `file`, of
+    all tests."""
+    rows = with_lengths(with_pauses(sources, events), files)
     clocks = {t.id: t.clocks for t in campaign.tests}
     # what logs the displacement: another log is whole where it lasts as long as that
     probes = {c.source for c in campaign.channels.values() if c.quantity == "displacement" and c.source}

@@ -169,7 +169,8 @@ def tell_apart(plan: TestPlan, clocks: Mapping[str, Clock]) -> None:
         said = f"test '{plan.test.id}': '{name}' runs {in_words(gap_ns)} {'later' if later else 'earlier'} than"
         if not is_relative(source):
             plan.notes.append(
-                f"{said} the test, and has no sample in it: is it a file of this test, and its clock right?"
+                f"{said} the test, and has no sample in it: is it a file of this test, and its clock right? "
+                f"{_moved(name, clocks[name].offset_ns + min(o[0] for o in others) - own[0])} if they began together"
             )
             continue
         away_ns = round((source.spec.clock.offset or 0.0) * 1e9) - own[0] + min(spans[n][0] for n in dated)
@@ -177,6 +178,12 @@ def tell_apart(plan: TestPlan, clocks: Mapping[str, Clock]) -> None:
             f"{said} all that has dates, by the clock that is declared; try: "
             f"{begun_together(name, {plan.test.id: -away_ns})} where they begin together"
         )
+
+
+def _moved(source: str, by_ns: int) -> str:
+    """The line that moves a log with dates. by_ns: from begin to begin, with what is declared."""
+    by = f"{'-' if by_ns < 0 else ''}{in_words(by_ns)}"
+    return f"clock: {{offset: {by}}} at the source '{source}', or clocks: {{{source}: {by}}} in this test alone,"
 
 
 def _span(source: SourcePlan, clock: Clock) -> tuple[int, int]:
