@@ -214,6 +214,27 @@ def test_hours_are_not_told_of_what_is_mostly_on(on_at: range, told: bool) -> No
     assert bool(hours_of_day(heat(*[day(on_at)] * 3))) is told
 
 
+@pytest.mark.parametrize(("fades_to", "told"), [(0.49, True), (0.51, False)])
+def test_hours_are_told_of_a_source_whose_estimate_fades_while_it_is_off(fades_to: float, told: bool) -> None:
+    """For hours after eight of work it stands above where a channel's rest would count as on."""
+    days = []
+    for _ in range(3):
+        made = day(range(8, 16))
+        fading = np.where(made.source > 0, made.source, 8.0 * fades_to)
+        days.append(replace(made, source=fading))
+    assert hours_of_day(heat(*days)) == ([8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0] if told else [])
+
+
+@pytest.mark.parametrize(("level", "on_with"), [(0.16, 1.0), (0.14, 0.0)])
+def test_a_source_of_several_heights_is_on_beside_a_channel_from_a_low_one_on(level: float, on_with: float) -> None:
+    """A speed heats at its low steps, too, where the source is far below its largest; the rest of the time is a
+    source at its largest that the channel rests in."""
+    runs = np.r_[np.ones(20), np.zeros(20)]
+    source = 8.0 * np.where(runs > 0, level, 1.0)
+    made = heat(*(course(source, {"n": rows(3000 * runs)}, f"t{i}") for i in range(4)))
+    assert one(companions(made, "dZ")).on_with == on_with
+
+
 # ---- in words
 
 
