@@ -371,6 +371,21 @@ def test_a_direction_that_hangs_on_single_tests_is_said_to_do_so(agreed: float, 
 
 
 @pytest.mark.parametrize(
+    ("sign", "agreed", "weighed"), [(1, 0.81, True), (-1, 1.0, True), (1, 0.79, False), (0, 1.0, False)]
+)
+def test_a_direction_that_the_draws_agree_on_speaks_against_the_doubt_whether_any_heat_is_missing(
+    sign: int, agreed: float, weighed: bool
+) -> None:
+    """What machines that lack nothing leave goes both ways."""
+    text = said(sign=sign, agreed=agreed, doubt="some")
+    assert text.startswith("A body with a time constant of 40 min") is weighed
+    assert text.startswith("It may be no heat at all") is not weighed
+    assert (f"goes one way in {100 * agreed:.0f} % of the draws of the tests, which speaks for heat" in text) is weighed
+    assert "machines that lack nothing leave as much" in text
+    assert "lack nothing" not in said(sign=sign, agreed=agreed)
+
+
+@pytest.mark.parametrize(
     ("taus", "words"),
     [
         ((300.0, 1200.0, 2400.0), "at most 40 min"),
@@ -444,8 +459,12 @@ def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: b
     found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], doubt=doubt)
     assert (found.heat is not None) is told
     where = found.heat.where if found.heat is not None else ""
-    assert where.startswith("It may be no heat at all") is (doubt == "some")
-    assert ("If heat is missing, it is that of a body with a time constant of " in where) is (doubt == "some")
+    assert ("machines that lack nothing leave as much" in where) is (doubt == "some")
+
+
+def test_of_what_goes_both_ways_the_doubt_comes_first() -> None:
+    text = said(sign=0, doubt="some")
+    assert "If heat is missing, it is that of a body with a time constant of " in text
 
 
 @pytest.mark.parametrize(
