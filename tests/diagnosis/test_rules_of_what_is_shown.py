@@ -168,6 +168,7 @@ def test_a_table_that_turns_does_not_hide_that_the_spindle_rests() -> None:
         ([0.0] * 24 + [1500.0] + [3000.0] * 25, "u 0 to 3000 rpm"),  # a mean of 60 s over the change
         ([0.0] * 2 + [3000.0] * 48, "u 3000 rpm"),
         ([0.0] * 12 + [3000.0] * 38, "u 3000 rpm from 62 min on"),
+        ([0.0] * 13 + [3000.0] * 37, "u 0 to 3000 rpm"),  # under three quarters of the window
         ([3000.0] * 38 + [0.0] * 12, "u 3000 rpm until 87 min"),
         ([3000.0] * 20 + [0.0] * 10 + [3000.0] * 20, "u 3000 rpm for 80 % of the time"),
         ([0.0] * 38 + [3000.0] * 12, "spindle at rest until 87 min"),
