@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -91,6 +93,16 @@ def test_of_one_that_is_not_claimed_the_reason_is_that_of_its_equation_too(of_a_
     for one, other in pairs:
         assert one.why == f"it is one equation with {other.id} and told as that: {other.why}"
         assert [r for r in one.rungs if r.name != "probability"] == [r for r in other.rungs if r.name != "probability"]
+
+
+def test_what_is_not_claimed_stands_by_the_error_that_it_takes_where_it_acts(of_a_missing_screw: Diagnosis) -> None:
+    """By the figures of `why` (docs/method.md, "Candidates"), not by errors of all tests."""
+    others = [c for c in of_a_missing_screw.candidates if not c.claimed and not c.refinement]
+    falls = [re.search(r"\(([\d.]+) -> ([\d.]+) um\)", c.why) for c in others]
+    given = [max(0.0, float(f[1]) ** 2 - float(f[2]) ** 2) ** 0.5 for f in falls if f is not None]
+    assert len(given) == len(others) > 5
+    assert all(later <= sooner + 0.2 for sooner, later in pairwise(given)), "as far as two decimals say"
+    assert given[0] > 2 * given[-1]
 
 
 def test_the_error_with_a_claim_is_that_which_the_next_version_tells_of_itself(of_a_missing_screw: Diagnosis) -> None:

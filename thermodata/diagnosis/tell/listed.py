@@ -32,9 +32,9 @@ def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
 
 
 def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
-    """Claims, what the locked tests refused, refinements that let an error fall, then all others by what they would
-    give as the answer tells it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the
-    others comes before them; then other refinements."""
+    """Claims, what the locked tests refused, refinements that let an error fall, then all others by the error that they
+    take away in the tests in which they act, beside the model as the answer tells it; what was dropped as it was judged
+    last. Where nothing is claimed the likeliest of the others comes before them; other refinements come last."""
     idle = [j for j in judgement.refinements if not lets_an_error_fall(j.scored, investigation)]
     refinements = [j for j in judgement.refinements if not among(j, idle)]
     first = [*judgement.claims, *judgement.refused, *refinements]
