@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -65,6 +67,42 @@ def test_one_equation_has_one_error_whatever_it_is_called(of_a_missing_screw: Di
     assert (lagged.rmse_um_before, lagged.rmse_um_after) == (screw.rmse_um_before, screw.rmse_um_after)
     assert [one.rmse_um_after for one in lagged.left_out] == [one.rmse_um_after for one in screw.left_out]
     assert lagged.why.startswith(f"it is one equation with {screw.id} and told as that: where it acts")
+
+
+def test_figures_rules_and_reason_of_a_row_are_of_one_thing(of_a_missing_screw: Diagnosis) -> None:
+    """Beside the screw a lag of its nut has nothing to do: that it hardly lets the error fall there is no figure of
+    the equation that it is told as."""
+    screw, lagged = (of_a_missing_screw.candidates[0], by_id(of_a_missing_screw, "lag:T_nut_X"))
+    assert not lagged.claimed
+    assert lagged.why.endswith("; not claimed: it is claimed by that name")
+    assert (lagged.p_value, lagged.evidence, lagged.beside) == (screw.p_value, screw.evidence, screw.beside)
+    assert lagged.rungs == screw.rungs
+    figures = lagged.why.partition(" told as that: ")[2].partition("; not claimed")[0]
+    assert screw.why.startswith(figures)
+
+
+def test_of_one_that_is_not_claimed_the_reason_is_that_of_its_equation_too(of_a_missing_screw: Diagnosis) -> None:
+    named = {c.id: c for c in of_a_missing_screw.candidates}
+    pairs = [
+        (c, other)
+        for c in named.values()
+        for name, other in named.items()
+        if c.why.startswith(f"it is one equation with {name} and told as that: ") and not other.claimed
+    ]
+    assert pairs
+    for one, other in pairs:
+        assert one.why == f"it is one equation with {other.id} and told as that: {other.why}"
+        assert [r for r in one.rungs if r.name != "probability"] == [r for r in other.rungs if r.name != "probability"]
+
+
+def test_what_is_not_claimed_stands_by_the_error_that_it_takes_where_it_acts(of_a_missing_screw: Diagnosis) -> None:
+    """By the figures of `why` (docs/method.md, "Candidates"), not by errors of all tests."""
+    others = [c for c in of_a_missing_screw.candidates if not c.claimed and not c.refinement]
+    falls = [re.search(r"\(([\d.]+) -> ([\d.]+) um\)", c.why) for c in others]
+    given = [max(0.0, float(f[1]) ** 2 - float(f[2]) ** 2) ** 0.5 for f in falls if f is not None]
+    assert len(given) == len(others) > 5
+    assert all(later <= sooner + 0.2 for sooner, later in pairwise(given)), "as far as two decimals say"
+    assert given[0] > 2 * given[-1]
 
 
 def test_the_error_with_a_claim_is_that_which_the_next_version_tells_of_itself(of_a_missing_screw: Diagnosis) -> None:

@@ -214,6 +214,27 @@ def test_hours_are_not_told_of_what_is_mostly_on(on_at: range, told: bool) -> No
     assert bool(hours_of_day(heat(*[day(on_at)] * 3))) is told
 
 
+@pytest.mark.parametrize(("fades_to", "told"), [(0.49, True), (0.51, False)])
+def test_hours_are_told_of_a_source_whose_estimate_fades_while_it_is_off(fades_to: float, told: bool) -> None:
+    """For hours after eight of work it stands above where a channel's rest would count as on."""
+    days = []
+    for _ in range(3):
+        made = day(range(8, 16))
+        fading = np.where(made.source > 0, made.source, 8.0 * fades_to)
+        days.append(replace(made, source=fading))
+    assert hours_of_day(heat(*days)) == ([8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0] if told else [])
+
+
+@pytest.mark.parametrize(("level", "on_with"), [(0.16, 1.0), (0.14, 0.0)])
+def test_a_source_of_several_heights_is_on_beside_a_channel_from_a_low_one_on(level: float, on_with: float) -> None:
+    """A speed heats at its low steps, too, where the source is far below its largest; the rest of the time is a
+    source at its largest that the channel rests in."""
+    runs = np.r_[np.ones(20), np.zeros(20)]
+    source = 8.0 * np.where(runs > 0, level, 1.0)
+    made = heat(*(course(source, {"n": rows(3000 * runs)}, f"t{i}") for i in range(4)))
+    assert one(companions(made, "dZ")).on_with == on_with
+
+
 # ---- in words
 
 
@@ -350,6 +371,21 @@ def test_a_direction_that_hangs_on_single_tests_is_said_to_do_so(agreed: float, 
 
 
 @pytest.mark.parametrize(
+    ("sign", "agreed", "weighed"), [(1, 0.81, True), (-1, 1.0, True), (1, 0.79, False), (0, 1.0, False)]
+)
+def test_a_direction_that_the_draws_agree_on_speaks_against_the_doubt_whether_any_heat_is_missing(
+    sign: int, agreed: float, weighed: bool
+) -> None:
+    """What machines that lack nothing leave goes both ways."""
+    text = said(sign=sign, agreed=agreed, doubt="some")
+    assert text.startswith("A body with a time constant of 40 min") is weighed
+    assert text.startswith("It may be no heat at all") is not weighed
+    assert (f"goes one way in {100 * agreed:.0f} % of the draws of the tests, which speaks for heat" in text) is weighed
+    assert "machines that lack nothing leave as much" in text
+    assert "lack nothing" not in said(sign=sign, agreed=agreed)
+
+
+@pytest.mark.parametrize(
     ("taus", "words"),
     [
         ((300.0, 1200.0, 2400.0), "at most 40 min"),
@@ -423,8 +459,12 @@ def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: b
     found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], doubt=doubt)
     assert (found.heat is not None) is told
     where = found.heat.where if found.heat is not None else ""
-    assert where.startswith("It may be no heat at all") is (doubt == "some")
-    assert ("If heat is missing, it is that of a body with a time constant of " in where) is (doubt == "some")
+    assert ("machines that lack nothing leave as much" in where) is (doubt == "some")
+
+
+def test_of_what_goes_both_ways_the_doubt_comes_first() -> None:
+    text = said(sign=0, doubt="some")
+    assert "If heat is missing, it is that of a body with a time constant of " in text
 
 
 @pytest.mark.parametrize(

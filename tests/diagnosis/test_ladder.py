@@ -43,6 +43,15 @@ def test_a_rule_that_is_outweighed_is_not_asked() -> None:
     assert (fall.holds, fall.asked) == (True, False)
 
 
+def test_the_rung_of_the_probability_is_of_what_the_row_states_one_of() -> None:
+    """A row that is told as another of the same equation has the rules of that, and its own probability."""
+    one, other = scored(evidence=400.0, after=0.5), scored(evidence=80.0, after=0.9)
+    told = {r.name: r for r in rungs(one, measure(), "um", sure=other)}
+    assert told["probability"] in rungs(other, measure(), "um")
+    assert told["fall"] in rungs(one, measure(), "um")
+    assert told["probability"] not in rungs(one, measure(), "um")
+
+
 def test_chance_is_told_by_its_quantiles() -> None:
     told = chance(measure(chance=np.arange(201.0)))
     assert (told[0], told[20], told[-1]) == (0.0, 100.0, 200.0)

@@ -11,7 +11,7 @@ from scipy.optimize import lsq_linear
 
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.unlogged import missing_heat as module
-from thermodata.diagnosis.unlogged.missing_heat import MissingHeat, missing_heat
+from thermodata.diagnosis.unlogged.missing_heat import MissingHeat, counted, missing_heat
 from thermodata.diagnosis.unlogged.one_way import Normal, solve
 from thermodata.diagnosis.unlogged.source_steps import box_columns
 from thermodata.effect.lag import lag
@@ -100,6 +100,14 @@ def test_the_contribution_is_the_source_through_the_lag_from_its_mean() -> None:
         assert np.ptp(course.contribution - gone) < 1e-9
         assert abs(course.contribution.mean()) < 0.2
         assert np.sqrt(np.mean((course.contribution - course.residual) ** 2)) < 0.3
+
+
+@pytest.mark.parametrize(("small", "count"), [(0.026, 4), (0.024, 1)])
+def test_a_change_over_a_twentieth_of_the_typical_one_is_a_parameter(small: float, count: int) -> None:
+    """The typical one, of one change of 1 among four, is 0.5; steps that a test has not have none."""
+    changes, there = np.zeros((2, 4)), np.array([[True] * 4, [False] * 4])
+    changes[0] = (small, 1.0, small, small)
+    assert counted(changes, there).tolist() == [count, 0]
 
 
 def test_a_residual_that_does_not_move_gives_nothing() -> None:

@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.sensors.loose import Fall, between_the_same_tests, conditions_changed, loose_sensors, telling
+from thermodata.diagnosis.sensors.loose import (
+    Fall,
+    between_the_same_tests,
+    conditions_changed,
+    left_out,
+    loose_sensors,
+    telling,
+)
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
@@ -225,3 +232,11 @@ def test_it_is_told_beside_the_verdict_and_nothing_else_changes(spec: Model) -> 
     assert [(a.kind, a.test) for a in found.artefacts if a.kind == "sensor_gain"] == [("sensor_gain", "t3")]
     assert found.put_right is None
     assert "sensor_gain" not in [a.kind for a in of(1.0).artefacts]
+
+
+@pytest.mark.parametrize(("share", "gain"), [(0.01, 1 / 2), (0.04, 4 / 5)])
+def test_what_hardly_moves_in_the_other_tests_is_foretold_with_a_small_gain(share: float, gain: float) -> None:
+    """A hundredth of a column's squares is held against each gain, so that as much in the others halves it."""
+    squares = np.array([share, 1.0 - share])
+    _, along, _ = left_out(squares[:, None, None], squares[:, None], squares, np.ones(2))
+    assert along[1] / squares[1] == pytest.approx(gain)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from thermodata.diagnosis.question.weak import describe_state, weak_spots
 from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
 from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
 from thermodata.diagnosis.tell.of_locked import said_by_locked
-from thermodata.diagnosis.tell.why import _figures, _of_all, in_spite_of, placeless_limit
+from thermodata.diagnosis.tell.why import _of_all, in_spite_of, placeless_limit
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
@@ -169,6 +168,7 @@ def test_a_table_that_turns_does_not_hide_that_the_spindle_rests() -> None:
         ([0.0] * 24 + [1500.0] + [3000.0] * 25, "u 0 to 3000 rpm"),  # a mean of 60 s over the change
         ([0.0] * 2 + [3000.0] * 48, "u 3000 rpm"),
         ([0.0] * 12 + [3000.0] * 38, "u 3000 rpm from 62 min on"),
+        ([0.0] * 13 + [3000.0] * 37, "u 0 to 3000 rpm"),  # under three quarters of the window
         ([3000.0] * 38 + [0.0] * 12, "u 3000 rpm until 87 min"),
         ([3000.0] * 20 + [0.0] * 10 + [3000.0] * 20, "u 3000 rpm for 80 % of the time"),
         ([0.0] * 38 + [3000.0] * 12, "spindle at rest until 87 min"),
@@ -483,16 +483,6 @@ def test_locked_tests_that_speak_against_a_claim_are_told_with_what_outweighs_th
     assert told.endswith(f"its probability is {100 * probability(one):.0f} %")
     for_it = replace(one, looked=Looked(*[Foretold(1.25, 0.2, 1.0)] * 2, 0.1))
     assert "outweigh" not in said_by_locked(for_it, held, "um", "tests", together=False)
-
-
-def test_what_has_the_equation_of_another_is_told_by_the_figures_of_that_other() -> None:
-    lag, screw = scored("lag", after=0.9, spread=0.4), scored("screw", after=0.2, spread=0.05)
-    asked: Any = SimpleNamespace(problem=SimpleNamespace(unit="um"), measure=measure())
-    said = _figures(lag, screw, (), asked, of_model=True)
-    own = _figures(screw, screw, (), asked, of_model=True)
-    assert "0.20 um" in own
-    assert "by 5 %" in own
-    assert said == f"it is one equation with screw:T_a and told as that: {own}"
 
 
 def test_errors_of_all_tests_are_told_beside_those_in_which_it_acts_where_they_differ() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,12 @@ def test_one_time_of_several_tests_speaks_for_a_programme() -> None:
     assert "t1 has one at the same time from the start, which speaks for a body" in which(some[0], some)
     assert SLIP in which(some[0], [some[0], at(2.1, 7.0, 1)])
     assert SLIP in which(some[0], [*some, *(at(2.5 + 0.7 * k, 14.0 + 5 * k, k % 3) for k in range(4))]), "so many"
+
+
+@pytest.mark.parametrize(("later_s", "says"), [(0.95, BODY), (1.05, SLIP)])
+def test_moments_are_known_to_a_second_where_nobody_said_how_long_a_step_takes(later_s: float, says: str) -> None:
+    some = [replace(s, within_s=0.0) for s in (at(2.0, 3.0), at(2.0 + later_s / 3600, 7.0, 1))]
+    assert says in which(some[0], some)
 
 
 def test_one_as_large_elsewhere_may_be_chance() -> None:

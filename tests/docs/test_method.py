@@ -45,3 +45,30 @@ def test_every_constant_of_the_page_is_in_the_code(page: str) -> None:
 
 def test_a_constant_that_is_not_there_is_found() -> None:
     assert named("the fall (`DROP_LIMITS`, 15 %)") - constants(*VERDICT) == {"DROP_LIMITS"}
+
+
+# sizes of caches and pieces, digits of figures, and numbers that stand for a word: no rule of a verdict hangs on them
+_TECHNICAL = {
+    *("KEPT_BYTES", "NEAR", "PIECE", "WIDE", "SPACES", "AT_ONCE", "DIGITS", "_QUANTILES", "TOLERANCE"),
+    *("SELECTED", "ALL_MODES", "_SHOWN", "_PROTOCOL"),
+}
+
+
+def numbers_of_the_diagnosis() -> set[str]:
+    """Names of the constants of its modules whose values hold a number."""
+    found: set[str] = set()
+    for module in (ROOT / "thermodata" / "diagnosis").rglob("*.py"):
+        for node in ast.parse(module.read_text("utf-8")).body:
+            if not isinstance(node, ast.Assign) or not re.search(r"\d", ast.unparse(node.value)):
+                continue
+            named_ = [n.id for target in node.targets for n in ast.walk(target) if isinstance(n, ast.Name)]
+            found |= {name for name in named_ if re.fullmatch(r"_?[A-Z][A-Z0-9_]*", name)}
+    return found
+
+
+def test_every_number_of_the_diagnosis_has_its_line_on_a_page() -> None:
+    """What it is for, and what it was set by; also where that is judgement."""
+    pages = "".join(page.read_text("utf-8") for page in (ROOT / "docs").glob("*.md"))
+    told = set(re.findall(r"`(_?[A-Z][A-Z0-9_]*)`", pages))
+    assert numbers_of_the_diagnosis() - told - _TECHNICAL == set()
+    assert numbers_of_the_diagnosis() >= _TECHNICAL

@@ -37,6 +37,15 @@ def test_every_answer_stands_in_the_page_and_is_read(ten: Any) -> None:
         assert f"\n| {number} | " in page
 
 
+def test_what_is_read_below_names_no_id_of_a_model(ten: Any) -> None:
+    """It hangs on the bytes of the logs, so that an answer that is renewed would have another one."""
+    page = ten.PAGE.read_text("utf-8")
+    for number in ten.CASES:
+        begin, end = f"<!-- answer {number} -->", f"<!-- end of answer {number} -->"
+        page = page[: page.index(begin)] + page[page.index(end) :]
+    assert ten.ID.findall(page) == []
+
+
 def test_a_block_is_renewed_and_one_that_differs_is_known(ten: Any) -> None:
     page = ten.PAGE.read_text("utf-8")
     new = ten.with_block(page, "answer 3", "```text\nanother\n```")

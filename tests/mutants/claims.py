@@ -983,6 +983,7 @@ MUTANTS = [
     heat("goes_with.py", "OFF_WITH, NO_OFTENER = 0.6, 0.3", "OFF_WITH, NO_OFTENER = 0.7, 0.5", "causes are ruled out"),
     heat("goes_with.py", "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3", "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4", "halves are followed"),
     heat("goes_with.py", " and switched else", " else", "what the model left rules its cause out"),
+    heat("goes_with.py", "HOURS_REST = 0.5", "HOURS_REST = 0.15", "hours of a source are silent while it fades"),
     heat("goes_with.py", "STRONG, WEAK = 0.5, 0.15", "STRONG, WEAK = 0.4, 0.2", "tests are strong and absent too soon"),
     heat(
         "goes_with.py",

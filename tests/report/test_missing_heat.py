@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -86,6 +87,23 @@ def test_the_terminal_says_the_same(unlogged: ReportData) -> None:
     assert "and 2 more" in text
 
 
+def test_hours_at_which_the_residual_stands_out_are_not_those_of_the_source(unlogged: ReportData) -> None:
+    """The source is on before the displacement is."""
+    assert unlogged.diagnosis is not None
+    unknown = unlogged.diagnosis.unknown
+    assert unknown is not None
+    assert unknown.heat is not None
+    heat = unknown.heat.model_copy(update={"hours_of_day": [8.0, 9.0]})
+    told = unlogged.diagnosis.model_copy(
+        update={"unknown": unknown.model_copy(update={"hours_of_day": [10.0], "heat": heat})}
+    )
+    text = diagnosis_text(told)
+    assert "\n  hours of the day (UTC) at which the residual stands out: 10.0" in text
+    assert "\n  its source is on at (UTC): 8 h, 9 h" in text
+    page = body(render(replace(unlogged, diagnosis=told)))
+    assert "hours of the day (UTC) at which the residual stands out 10" in page
+
+
 @pytest.mark.parametrize(
     ("low", "high", "words"),
     [(0.4, 1.0, "24 min to 60 min"), (0.4, None, "at least 24 min"), (None, None, "not bounded by these tests")],
@@ -99,4 +117,4 @@ def test_what_goes_both_ways_has_no_direction_and_what_does_not_apply_is_left_ou
     heat = missing_heat(None).model_copy(update={"goes_with": [], "hours_of_day": []})
     lines = dict(heat_lines(heat))
     assert lines["direction"] == "both ways"
-    assert not {"goes with", "on at (UTC)"} & set(lines)
+    assert not {"goes with", "its source is on at (UTC)"} & set(lines)

@@ -18,7 +18,7 @@ from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.refined import named
 from thermodata.report.verdict.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
 from thermodata.schema.words.sentences import listed
 
 from ..answers import candidate
@@ -480,6 +480,22 @@ def test_none_is_said_with_what_an_earlier_claim_left_on_the_locked_tests(locked
     text = verdict_sentence(found("none", [], rmse_um=0.5, locked_rmse_um=locked))
     assert text.startswith("the open tests show no missing effect: ")
     assert ("; but an earlier claim left the locked tests with 3.10 um, and these may lack one" in text) is said
+
+
+@pytest.mark.parametrize(("error", "said"), [(1.02, True), (0.98, False)])
+def test_none_is_said_with_the_hours_in_which_far_more_is_left(error: float, said: bool) -> None:
+    """Twice the error on left-out tests; of weak spots, ranked by what they cost, the one of the largest error."""
+    spots = [
+        WeakSpot(campaign="c", test="t6", from_s=0, to_s=43_200, rmse_um=0.9, state="idle"),
+        WeakSpot(campaign="c", test="t8", from_s=3600, to_s=14_400, rmse_um=error, state="idle"),
+    ]
+    text = verdict_sentence(found("none", [], rmse_um=0.5, weak_spots=spots))
+    assert text.startswith("the open tests show no missing effect: ")
+    assert (f"; most in t8, up to {error:.2f} um over 3.0 h as it is fitted" in text) is said
+    assert ("most in" in text) is said
+    other = [*spots, spots[0].model_copy(update={"campaign": "d"})]
+    assert ("most in c/t8" in verdict_sentence(found("none", [], rmse_um=0.5, weak_spots=other))) is said
+    assert "most in" not in verdict_sentence(found("none", [], rmse_um=None, weak_spots=spots))
 
 
 def test_every_verdict_has_words_without_any_candidate() -> None:

@@ -185,9 +185,9 @@ class _Sums:
         size = size[moves]
         gram, cross = gram[:, moves][:, :, moves] / size[:, None] / size, cross[:, moves] / size
         at, factor = _best(gram, cross)
-        plain, *_ = _left_out(gram, cross, energy, np.ones(len(used)))
+        plain, *_ = left_out(gram, cross, energy, np.ones(len(used)))
         scale = np.where(np.arange(len(used)) < at, 1.0, factor)
-        left, along, power = _left_out(gram, cross, energy, scale)
+        left, along, power = left_out(gram, cross, energy, scale)
         foretold = np.sqrt(power / self.rows[used])
         tells = telling(foretold)
         sides = [np.flatnonzero(tells[:at]), at + np.flatnonzero(tells[at:])]
@@ -224,7 +224,7 @@ def _best(gram: FloatND, cross: Float2D) -> tuple[int, float]:
     return best
 
 
-def _left_out(gram: FloatND, cross: Float2D, energy: Float1D, scale: Float1D) -> tuple[float, Float1D, Float1D]:
+def left_out(gram: FloatND, cross: Float2D, energy: Float1D, scale: Float1D) -> tuple[float, Float1D, Float1D]:
     """Each test by the gains of the others: (squared error of all, product of what is measured with what is foretold at
     the factor 1, square of that; each of shape (tests,)). scale: how many times as much each answers, shape (tests,).
     """

@@ -15,9 +15,10 @@ from thermodata.schema.answers.candidate import CandidateCourse, LeftOut, Rung
 _QUANTILES = 41
 
 
-def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
+def rungs(scored: Scored, measure: Measure, unit: str, sure: Scored | None = None) -> list[Rung]:
     """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold. What is
-    beside the effects as the model has them is no claim: chance and probability are of effects that act freely."""
+    beside the effects as the model has them is no claim: chance and probability are of effects that act freely.
+    sure: of which the probability is told, where it is another of the same equation."""
     return [
         Rung(
             name=rule.name,
@@ -30,7 +31,7 @@ def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
             asked=bool(rule.asked),
             fails=None if rule.holds else rule.fails,
         )
-        for rule in (*rules(scored, measure, unit), surely(scored))
+        for rule in (*rules(scored, measure, unit), surely(sure or scored))
         if not (scored.as_modelled and rule.name in ("chance", "probability"))
     ]
 

@@ -32,9 +32,9 @@ def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
 
 
 def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
-    """Claims, what the locked tests refused, refinements that let an error fall, then all others by what they would
-    give as the answer tells it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the
-    others comes before them; then other refinements."""
+    """Claims, what the locked tests refused, refinements that let an error fall, then all others by the error that they
+    take away in the tests in which they act, beside the model as the answer tells it; what was dropped as it was judged
+    last. Where nothing is claimed the likeliest of the others comes before them; other refinements come last."""
     idle = [j for j in judgement.refinements if not lets_an_error_fall(j.scored, investigation)]
     refinements = [j for j in judgement.refinements if not among(j, idle)]
     first = [*judgement.claims, *judgement.refused, *refinements]
@@ -122,13 +122,14 @@ def candidate(
     refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
-    shape = held.on(held.asked) if held else _added(s) if refining else s.looked.least if s.looked else None
     told, of_model = beside_the_model(s, investigation)
-    told_of = any(s is one for one in told_with)
-    by_name = goes_by_name(s, told_with) if member is None else None
-    mode = reads_as(s, [j.scored for j in judgement.refinements]) if member is None else None
+    one, as_judged = as_told(s, member, told, investigation, judgement)
+    shape = held.on(held.asked) if held else _added(s) if refining else s.looked.least if s.looked else None
+    told_of = any(s is t for t in told_with)
+    by_name = goes_by_name(one, told_with) if as_judged is None else None
+    mode = reads_as(one, [j.scored for j in judgement.refinements]) if as_judged is None else None
     twins = [t.candidate for t in equivalents(_as_ranked(s, beside), beside)]
-    against = _against_adding(s, investigation) if refining else ""
+    against = _against_adding(one, investigation) if among(as_judged, judgement.refinements) else ""
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -142,7 +143,7 @@ def candidate(
         # measured for what is sound; nothing is known of the share of the others
         probability=probability(s) if told_of else None,
         # chance was asked beside effects that may act otherwise
-        p_value=None if s.as_modelled else p_value(s.evidence, measure.chance),
+        p_value=None if one.as_modelled else p_value(one.evidence, measure.chance),
         rmse_um_before=rmse(told.sse_before, told),
         rmse_um_after=rmse(told.sse_after, told),
         fit_before=_fit(told.sse_before, told, measure.spread),
@@ -154,13 +155,13 @@ def candidate(
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
         as_modelled=s.as_modelled,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
-        beside=[] if of_model else _beside(s, told, member, investigation, judgement),
+        beside=[] if of_model else judged_beside(one, as_judged, investigation, judgement),
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads or told_of else [],
         also_on=dict(s.also_on),
         why=why(
-            s,
-            member,
+            one,
+            as_judged,
             investigation,
             judgement,
             held,
@@ -169,19 +170,25 @@ def candidate(
             of_model=of_model,
             against=against,
             has_twins=bool(twins),
+            by_that_name=one.candidate is not s.candidate,
         ),
-        evidence=float(s.evidence) if np.isfinite(s.evidence) and not s.as_modelled else None,
-        rungs=ladder.rungs(s, measure, problem.unit),
+        evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,
+        rungs=ladder.rungs(one, measure, problem.unit, sure=s if told_of else one),
         left_out=ladder.left_out(told, problem),
-        courses=ladder.courses(s, problem) if heads or refining else [],
+        courses=ladder.courses(one, problem) if heads or refining else [],
     )
 
 
-def _beside(
-    s: Scored, told: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement
-) -> list[str]:
-    """What has the equation of another is told beside the same."""
-    return judged_beside(s if told.candidate is s.candidate else told, member, investigation, judgement)
+def as_told(s: Scored, member: Judged | None, told: Scored, investigation: Investigation, judgement: Judgement) -> Row:
+    """What a row says of itself: its own candidate, or, where its errors are told of another that is one equation with
+    it, that other as it stands in its own row, so that figures, rules and reason are of one thing."""
+    if told.candidate is s.candidate:
+        return s, member
+    for j in (*judgement.judged, *judgement.heats):
+        if j.scored.columns is told.columns:
+            return j.scored, j
+    dropped = () if investigation.selection is None else investigation.selection.dropped
+    return next((d for d in dropped if d.columns is told.columns), told), None
 
 
 def _as_ranked(s: Scored, ranked: Sequence[Scored]) -> Scored:

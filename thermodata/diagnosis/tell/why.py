@@ -63,13 +63,19 @@ def why(
     of_model: bool = True,
     against: str = "",
     has_twins: bool = True,
+    by_that_name: bool = False,
 ) -> str:
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
     told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
     by_name: what says the same of its channels by a name, and has its probability stated. against: why a refinement
-    is not to be added, where that is so. has_twins: whether others do the same in these tests."""
+    is not to be added, where that is so. has_twins: whether others do the same in these tests. by_that_name: whether it
+    is told in place of another that is one equation with it, and never claimed by its own name."""
     numbers = _figures(s, told, judged_beside(s, member, investigation, judgement), investigation, of_model=of_model)
+    if by_that_name:
+        numbers = f"it is one equation with {s.candidate.id} and told as that: {numbers}"
     if member is not None and among(member, judgement.claims):
+        if by_that_name:
+            return f"{numbers}; not claimed: it is claimed by that name"
         return f"{numbers}{_claimed(s, member, investigation, judgement, held)}"
     refused = among(member, judgement.refused)
     if member is not None and member.refines and not refused:
@@ -86,9 +92,6 @@ def _figures(
 ) -> str:
     """What it does to the errors. told, of_model: as in `why`. others: what it is judged beside."""
     unit, tests = investigation.problem.unit, investigation.measure.tests
-    if told is not None and told.candidate is not s.candidate:
-        own = _numbers(told, told, investigation)
-        return f"it is one equation with {told.candidate.id} and told as that: {own}"
     if told is not None and of_model and others:
         left = from_to(*_left_out(told), unit, "from", "to")
         own = _numbers(s, None, investigation, others)

@@ -19,6 +19,11 @@ _DOUBTED = (
     "It may be no heat at all, for models of machines that lack nothing leave as much, and any course can be drawn as "
     "that of a body. If heat is missing, it is that of"
 )
+# what machines that lack nothing leave is foretold as well in parts that are left out, but goes both ways
+_WEIGHED = (
+    "Models of machines that lack nothing leave as much, but what they leave mostly goes both ways, while this goes "
+    "one way in {share} of the draws of the tests, which speaks for heat"
+)
 
 
 def where(
@@ -35,7 +40,7 @@ def where(
     first: what ranks first, where it is plausible or nearest to it. warm: the key of the test at whose warm start the
     model fails most. doubt: whether any heat is missing."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
-    said = [_capital(_body(heat)) if doubt == "none" else f"{_DOUBTED} {_body(heat)}", told]
+    said = [*_doubted(heat, doubt), told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
     if is_warm:
         said.append(_began_warm(strongest))
@@ -56,6 +61,15 @@ def where(
 def minutes(seconds: float) -> str:
     """'40 min', '2.7 h'."""
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def _doubted(heat: MissingHeat, doubt: Doubt) -> list[str]:
+    """The body, after the doubt whether there is any, or before it where its direction speaks against that doubt."""
+    if doubt == "none":
+        return [_capital(_body(heat))]
+    if heat.sign and heat.agreed >= SURE:
+        return [_capital(_body(heat)), _WEIGHED.format(share=in_percent(heat.agreed))]
+    return [f"{_DOUBTED} {_body(heat)}"]
 
 
 def _body(heat: MissingHeat) -> str:

@@ -17,6 +17,9 @@ RESTS_AT_ZERO = ("rotational_speed", "feed", "flow", "state")
 RESTS_ABOVE_ZERO = ("power", "load", "current", "torque", "pressure", "voltage")
 STANDS = 0.05  # of the largest value: what moves less than this rests
 SOURCE_RESTS = 0.15  # of its nearly largest value (95 %)
+# the same for hours of the day: an estimate fades where its source is off, for hours, but long stays above this only
+# where it is on
+HOURS_REST = 0.5
 ENOUGH = 0.05  # of the time that a channel must run, and rest, to say anything
 # the source is on in this share of the time that the channel runs, and more often than while it rests, beyond chance
 ON_WITH, MORE_OFTEN = 0.8, 0.25
@@ -64,10 +67,10 @@ def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companio
     return sorted((f for f in found if f is not None), key=_closeness, reverse=True)
 
 
-def on(courses: Sequence[Course]) -> list[Float1D]:
-    """1 in the steps in which the source is on, else 0; a test each, shape (n,)."""
+def on(courses: Sequence[Course], above: float) -> list[Float1D]:
+    """1 in the steps in which the source is on, else 0; a test each, shape (n,). above: of its nearly largest value."""
     large = float(np.quantile(np.concatenate([c.source for c in courses]), 0.95))
-    return [(c.source > SOURCE_RESTS * large).astype(np.float64) for c in courses]
+    return [(c.source > above * large).astype(np.float64) for c in courses]
 
 
 def hours_of_day(heat: MissingHeat) -> list[float]:
@@ -75,7 +78,7 @@ def hours_of_day(heat: MissingHeat) -> list[float]:
     if not heat.sign:
         return []
     shares: list[dict[int, float]] = []
-    for course, is_on in zip(heat.courses, on(heat.courses), strict=True):
+    for course, is_on in zip(heat.courses, on(heat.courses, HOURS_REST), strict=True):
         if course.test.start_unix_s is None:
             continue
         middle = course.from_s + course.step_s * (np.arange(len(is_on)) + 0.5)
@@ -108,7 +111,7 @@ def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Compan
     runs = _running(courses, info)
     if runs is None:
         return None
-    is_on = on(courses)
+    is_on = on(courses, SOURCE_RESTS)
     counts = np.array(
         [[u.sum(), (1 - u).sum(), (s * u).sum(), (s * (1 - u)).sum()] for u, s in zip(runs, is_on, strict=True)]
     )

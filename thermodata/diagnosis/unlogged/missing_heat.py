@@ -138,6 +138,11 @@ def _typical(changes: Float2D, there: NDArray[np.bool_]) -> float:
     return float(np.sqrt(np.mean(changes[there] ** 2))) or 1.0
 
 
+def counted(changes: Float2D, there: NDArray[np.bool_]) -> Float1D:
+    """How many changes of a source are parameters, in each test: shapes (tests, n) to (tests,)."""
+    return np.asarray(np.sum(changes > CHANGE * _typical(changes, there), axis=1), dtype=np.float64)
+
+
 def _blocky(normal: Normal, scale: float, one_way: bool) -> Solution:
     """Reweighted so that the sum of changes is held down, not of their squares: few steps, of any height."""
     weight, solution = np.ones(normal.aim.shape), None
@@ -161,9 +166,8 @@ def _fits(tests: Sequence[SteppedTest], sign: int, tau_s: float, price: float) -
     for strength in STRENGTHS:
         solution = _blocky(normal, _scale(tests[0], tau_s, strength), one_way=sign != 0)
         changes = _changes(solution, normal.there)
-        counted = np.sum(changes > CHANGE * _typical(changes, normal.there), axis=1).astype(np.float64)
         errors = np.array([np.sum(_left(c, solution, i) ** 2) for i, c in enumerate(columns)])
-        made.append(_Fit(sign, tau_s, strength, solution, errors, counted))
+        made.append(_Fit(sign, tau_s, strength, solution, errors, counted(changes, normal.there)))
     return made
 
 

@@ -242,7 +242,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
                 f"  {name}: {between.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
                 for name, key, between in (
                     ("memory (its autocorrelation falls to 1/e) [h]", "time_constants_h", ", "),
-                    ("hours of the day", "hours_of_day", ", "),
+                    ("hours of the day (UTC) at which the residual stands out", "hours_of_day", ", "),
                     ("states", "states", "; "),  # commas stand within one
                 )
                 if hints[key]

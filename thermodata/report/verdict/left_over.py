@@ -20,6 +20,8 @@ MORE = 1.5
 OTHERWISE = 3.0
 """An error of so many times that on left-out tests says that the model's effects act otherwise than it has them."""
 
+STANDS_OUT = 2.0
+"""An error in one window of so many times that on left-out tests is told beside it: a mean over all tests hides it."""
 LONGER = 1.01
 """Times an averaging time: what is no longer is the same one."""
 AS_SCORED = " (of calibration about levels fitted to them, others from their first samples on)"
@@ -41,6 +43,17 @@ def left_over(found: Diagnosis) -> str:
             f"({number(found.noise_um)} um{_between(found)}){as_fitted}"
         )
     return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
+
+
+def most_left(found: Diagnosis) -> str:
+    """'; most in t8, up to 4.73 um over 3.0 h as it is fitted': the weak spot of the largest error, where that is far
+    more than what all left-out tests leave; else ''."""
+    spot = max(found.weak_spots, key=lambda s: s.rmse_um, default=None)
+    if spot is None or found.rmse_um is None or spot.rmse_um <= STANDS_OUT * found.rmse_um:
+        return ""
+    several = len({s.campaign for s in found.weak_spots}) > 1
+    test = f"{spot.campaign}/{spot.test}" if several else spot.test
+    return f"; most in {test}, up to {number(spot.rmse_um)} um over {duration(spot.to_s - spot.from_s)} as it is fitted"
 
 
 def noise_of_left_out(found: Diagnosis) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
 from thermodata.report.verdict.could_hide import could_be
-from thermodata.report.verdict.left_over import as_of_nothing, left_over, offered, on_left_out
+from thermodata.report.verdict.left_over import as_of_nothing, left_over, most_left, offered, on_left_out
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
@@ -132,7 +132,7 @@ def _verdict(found: Diagnosis) -> str:
         named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
         mend = offered(found)
         beside = "where its effects may act otherwise, " if mend else ""
-        none = f"{beside}the open tests show no missing effect{named}{as_dated}: {left_over(found)}"
+        none = f"{beside}the open tests show no missing effect{named}{as_dated}: {left_over(found)}{most_left(found)}"
         return "; ".join(filter(None, [doubt, mend, none, open_still]))
     return {
         "effect": "missing: an effect that the data point to",

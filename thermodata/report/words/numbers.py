@@ -146,7 +146,7 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
             f"{percent(heat.left_out)} of the squared residual in parts of the tests that were left out in turn "
             f"({percent(heat.explained)} of what it is drawn through, as any free course does)",
         ),
-        ("on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
+        ("its source is on at (UTC)", ", ".join(f"{h:.0f} h" for h in heat.hours_of_day)),
         ("goes with", _companions(heat.goes_with)),
         ("not with", _companions(heat.goes_not_with)),
     ]
