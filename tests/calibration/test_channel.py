@@ -127,10 +127,10 @@ def test_signs_are_unknown_where_nothing_tells_them() -> None:
 @pytest.mark.parametrize("limits", [["0 V", "20 V"], [0, 20], ["0 mV", "20000 mV"], ["-250 um", "250 um"]])
 def test_range_flags(limits: list) -> None:
     spec = channel("displacement", axis="Z", sensor={"range": limits})
-    raw = np.array([-0.5, 0.0, 10.0, 19.995, 20.0, 20.3, np.nan])
+    raw = np.array([-0.5, 0.0, 10.0, 19.965, 19.98, 20.0, 20.3, np.nan])  # 19.98: a converter ends so
     _, flags = calibrate(raw, channel=spec, signal_unit="V", scaling=None, calibrations=[JUMP])
     out, edge = Flag.OUT_OF_RANGE, Flag.SATURATED
-    assert flags.tolist() == [out, edge, 0, edge, edge, out, out]
+    assert flags.tolist() == [out, edge, 0, 0, edge, edge, out, out]
     assert flags.dtype == np.uint16
 
 

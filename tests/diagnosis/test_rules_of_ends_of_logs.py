@@ -146,3 +146,13 @@ def test_logs_that_are_hours_apart_in_all_tests_are_told_unless_heat_moved_one()
     assert "Nothing was moved for it here" in told.why
     by_heat = ClockMoved(source="nc", campaign="", test="", moved_s=3600.0)
     assert ends.artefacts("daq", [by_heat]) == []
+
+
+def test_a_clock_that_is_declared_for_all_tests_is_told_of_the_one_that_stands_elsewhere_and_not_moved() -> None:
+    """The line of that test stands in place of the declared 89 s."""
+    odd = OddEnds("c", "stair", "nc", "daq", 1500.0, "said", "seen", {"nc": 89.0 - 1500.0, "daq": 1500.0}, stays=True)
+    ends = Ends((odd,))
+    assert ends.moves("daq") == []
+    (told,) = ends.artefacts("daq", [])
+    assert told.why.startswith("seen. Nothing was moved for it here, for the campaign file declares one of the two")
+    assert "write clocks: {nc: -1411 s} into the line of test 'stair'" in told.why

@@ -136,6 +136,25 @@ def test_refinements_are_offered_and_never_missing() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("left", "said"),
+    [
+        (1.0, ""),
+        (1.1, "; 1.10 um stay then, 11 % of the response (the model fails most in day1, from 8.5 h to 18.5 h)"),
+        (
+            3.0,
+            "; 3.00 um stay then, 30 % of the response (the model fails most in day1, from 8.5 h to 18.5 h), more than "
+            "is mostly left of a machine that lacks nothing: heat of what nobody logs may be in it",
+        ),
+    ],
+)
+def test_what_stays_beside_a_refinement_is_told_where_it_is_more_than_is_left_alone(left: float, said: str) -> None:
+    spot = WeakSpot(campaign="c", test="day1", from_s=30600.0, to_s=66600.0, rmse_um=9.0, state="hot")
+    second = one("mode", refinement=True, rmse_um_after=left)
+    told = verdict_sentence(found("refine", [second], named_rmse_um=left, response_um=10.0, weak_spots=[spot]))
+    assert told.partition(" -> ")[2].partition(" um")[2] == said
+
+
 def test_no_error_falls_upward() -> None:
     """Over all tests an error may rise though it falls where the effect acts, and locked tests are asked by shape."""
     rises = {"rmse_um_before": 0.61, "rmse_um_after": 0.80}

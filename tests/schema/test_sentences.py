@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.schema.words.durations import how_long
-from thermodata.schema.words.sentences import counted, listed, with_count, with_dots
+from thermodata.schema.words.sentences import beside, counted, listed, with_count, with_dots
 
 
 @pytest.mark.parametrize(("n", "said"), [(0, ""), (1, "a"), (2, "a or b"), (4, "a, b, c or d")])
@@ -38,3 +38,17 @@ def test_what_they_do_goes_with_how_many_they_are(n: int, said: str) -> None:
 )
 def test_a_length_of_time_is_said_in_the_unit_of_people(seconds: float, said: str) -> None:
     assert how_long(seconds) == said
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "said"),
+    [
+        (0.648, 0.65, "just under the limit of 65 %"),
+        (0.51, 0.5, "just over the limit of 50 %"),
+        (0.511, 0.5, "limit 50 %"),
+        (0.636, 0.65, "limit 65 %"),
+        (0.0, 0.15, "limit 15 %"),
+    ],
+)
+def test_what_misses_its_limit_by_a_hair_is_said_to(value: float, limit: float, said: str) -> None:
+    assert beside(value, limit) == said

@@ -66,6 +66,16 @@ def test_what_a_declared_clock_did_is_not_advised_to_be_undone() -> None:
     assert [s.split(":")[0] for s in told.beside({"d6": {"nc": 1560.0}})] == ["tests 'd5', 'd7' and 'd8'", "test 'd6'"]
 
 
+def test_the_line_to_try_stands_in_place_of_the_offset_that_is_declared_for_all_tests() -> None:
+    tests = days()
+    for _, nc in tests.values():
+        nc["offset_ns"] = 89 * 10**9
+    [told] = odd_clocks(tests)
+    assert "clocks: {nc: -2911 s} or clocks: {daq: 3000 s}" in str(told)
+    [said] = told.beside({"d2": {"daq": 600.0}})
+    assert "clocks: {daq: 600 s, nc: -2911 s} or clocks: {daq: 3600 s}" in said
+
+
 def from_a_day_on(day: int, count: int, moved_s: float = 26 * MINUTE, last_s: float = 0.0) -> dict[str, Any]:
     """last_s: by how much it is off more on the last day."""
     off = [moved_s * (i >= day) + last_s * (i == count - 1) for i in range(count)]

@@ -111,3 +111,25 @@ def test_a_short_measurement_is_no_spike_of_the_probe_in_the_air(
     with store.reader() as con:
         flags = [f for (f,) in con.execute("select flag from sample where channel = 'dZ' order by t").fetchall()]
     assert np.flatnonzero(measured & ((np.array(flags) & int(Flag.SPIKE)) != 0)).tolist() == found
+
+
+def test_what_stands_at_one_value_is_none_whether_the_measured_samples_tell_it_as_stuck_or_as_an_end(
+    store: Store, tmp_path: Path
+) -> None:
+    """A machine moves between its measurements, and the probe stands at its end meanwhile, for most of the test: it is
+    stuck. For an hour a motion that no log has goes on, and `measuring` lets it through: there alone it is an end."""
+    rows = np.arange(N)
+    away = (rows % 60 < 52) & (rows >= 120) & (rows < 2400)
+    passes = (rows >= 900) & (rows < 1500)
+    dz = np.round(20 * (1 - np.exp(-rows / 900)) + np.random.default_rng(0).normal(0, 0.24, N), 3)
+    dz[away] = -223.198
+    meas = (~away | passes).astype(np.float64)
+    path = write_campaign(tmp_path / "lab", CAMPAIGN.replace("MEASURING", MASKED), logs=False)
+    t = START_NS + rows.astype(np.int64) * 10 * 10**9
+    write_log(path.parent / "raw/a.npz", {"main": {"t_ns": t, "dZ": dz, "meas": meas}})
+    ingest(store, path)
+    with store.reader() as con:
+        rows_of = con.execute("select flag, valid(flag) from sample where channel = 'dZ' order by t").fetchall()
+    flags, valid = np.array(rows_of).T
+    assert ((flags[away & passes] & int(Flag.STUCK | Flag.SATURATED)) != 0).all()
+    assert (valid.astype(bool) == ~away).all()

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from thermodata.calibration.platinum import CURVE, degrees
+from thermodata.calibration.quality.limit import AT_END
 from thermodata.calibration.result import CalibrationResult, Sign
 from thermodata.calibration.scaling import Raw, apply_scaling
 from thermodata.errors import CalibrationError, UsageError
@@ -25,8 +26,6 @@ from thermodata.schema.units.quantity import (
     split_value,
 )
 
-# A clipped signal stands within noise and a code or two of its limit; 0.05 % of the range holds both.
-_EDGE = 5e-4
 _COLDEST_DEGC = -273.15
 _UNITLESS = frozenset({"state", "label"})
 TRUE_WORDS = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})
@@ -232,7 +231,7 @@ def _range_flags(
             expected="[low, high] with low < high",
             got=f"[{sensor.range[0]}, {sensor.range[1]}]",
         )
-    edge = _EDGE * (high - low)
+    edge = AT_END * (high - low)
     flags = np.zeros(len(x), dtype=np.uint16)
     with np.errstate(invalid="ignore"):
         inside = (x > low + edge) & (x < high - edge)

@@ -9,6 +9,9 @@ import numpy as np
 from thermodata.calibration.quality.value import RunStats, is_staircase, refreshed, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
+# of the declared range: a signal that is cut off stands within noise and a code or two of its limit, and a converter
+# ends before its nominal full scale by its gain error, up to 0.1 % (19.98 V of 20 V)
+AT_END = 1.5e-3
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
 _POSSIBLE = {
     "temperature": (-60.0, 1500.0),

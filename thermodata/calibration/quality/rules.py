@@ -14,7 +14,7 @@ from thermodata.calibration.quality.column import Marked
 from thermodata.calibration.quality.edges import without_pauses
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
-from thermodata.calibration.quality.limit import NO_VALUE, SAY_RANGE, clipped, impossible, no_values, sentinels
+from thermodata.calibration.quality.limit import AT_END, NO_VALUE, SAY_RANGE, clipped, impossible, no_values, sentinels
 from thermodata.calibration.quality.spike import spikes
 from thermodata.calibration.quality.step import Step, offset_steps, stood_before
 from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, rests
@@ -49,7 +49,7 @@ def beyond_or_at_the_declared_range(seen: Marked) -> None:
     if not seen.column.is_float or seen.column.range is None:
         return
     x, (low, high) = seen.column.values, seen.column.range
-    edge = 5e-4 * (high - low)
+    edge = AT_END * (high - low)
     with np.errstate(invalid="ignore"):
         beyond = (x < low - edge) | (x > high + edge)
         at_edge = ((x <= low + edge) | (x >= high - edge)) & ~beyond

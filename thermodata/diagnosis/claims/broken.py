@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from thermodata.diagnosis.weigh.figures import HARDLY, from_to
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.words.sentences import apart, in_percent
+from thermodata.schema.words.sentences import apart, beside, in_percent
 
 
 def too_little(scored: Scored, fall: float, unit: str, tests: str, doubles: float) -> str:
@@ -22,7 +22,7 @@ def too_little(scored: Scored, fall: float, unit: str, tests: str, doubles: floa
         return f"{where} does not fall (limit: a fall of {in_percent(fall)})"
     if scored.drop < HARDLY:
         return f"{where} hardly falls (limit: a fall of {in_percent(fall)})"
-    return f"{where} falls by {apart(scored.drop, fall)} only (limit {in_percent(fall)})"
+    return f"{where} falls by {apart(scored.drop, fall)} only ({beside(scored.drop, fall)})"
 
 
 def too_few(better: int, count: int, limit: float, tests: str) -> str:
@@ -30,7 +30,7 @@ def too_few(better: int, count: int, limit: float, tests: str) -> str:
     if count == 1:
         return f"it makes the one {tests[:-1]} in which it acts less probable"
     of = f"it makes {better or 'none'} of the {count} {tests} in which it acts more probable"
-    return f"{of} (limit {in_percent(limit)})"
+    return f"{of} ({beside(better / count, limit) if count else f'limit {in_percent(limit)}'})"
 
 
 def unlike(spread: float, limit: float, count: int, tests: str) -> str:
@@ -38,6 +38,6 @@ def unlike(spread: float, limit: float, count: int, tests: str) -> str:
     if count < 2:
         return f"it acts in one {tests[:-1]} only, so no other tells its gain"
     return (
-        f"its gain differs between {tests} by {apart(spread, limit)} (limit {in_percent(limit)}): "
+        f"its gain differs between {tests} by {apart(spread, limit)} ({beside(spread, limit)}): "
         "a cause acts alike everywhere"
     )

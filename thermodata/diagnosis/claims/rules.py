@@ -18,7 +18,7 @@ from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.agreed.limits import PLAUSIBLE
 from thermodata.schema.words.places import heat_at
-from thermodata.schema.words.sentences import apart, in_percent
+from thermodata.schema.words.sentences import apart, beside, in_percent
 
 P_LIMIT = 0.01
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
@@ -79,7 +79,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             P_LIMIT,
             "most",
             p <= P_LIMIT,
-            f"{chance_in_words(scored.evidence, measure.chance)} (limit {100 * P_LIMIT:.0f} %)",
+            f"{chance_in_words(scored.evidence, measure.chance)} ({beside(p, P_LIMIT)})",
         ),
         Rule(
             "fall",
@@ -129,7 +129,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             "least",
             strong or told >= worth or (sure and _does_much(scored, measure)),
             f"it explains {short(told)} {unit} where it acts, {_share(told, measure.spread)} of the response's "
-            f"{short(measure.spread)} {unit} (limit {in_percent(WORTH_SHARE)})",
+            f"{short(measure.spread)} {unit} ({beside(told / max(measure.spread, 1e-12), WORTH_SHARE)})",
             unit,
         ),
         *_of_a_difference(scored),
@@ -171,8 +171,7 @@ def surely(scored: Scored) -> Rule:
         limit,
         "least",
         sure >= limit,
-        f"causes like it were right in {apart(sure, limit)} of cases only (limit {in_percent(limit)}): "
-        f"{_in_short(scored)}",
+        f"causes like it were right in {apart(sure, limit)} of cases only ({beside(sure, limit)}): {_in_short(scored)}",
     )
 
 

@@ -18,6 +18,7 @@ from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
+    from thermodata.store.ingest.told.beside_each_other import OddClock
     from thermodata.store.ingest.told.whole_hours import HoursApart
 
 Key = tuple[str, str]
@@ -26,7 +27,8 @@ Key = tuple[str, str]
 @dataclass(frozen=True, slots=True)
 class OddEnds:
     """In a test the source `late` stands shift_s (> 0) later beside `early` than in most. said: of all such tests,
-    with what to try; seen: the same without that."""
+    with what to try; seen: the same without that. in_place: source -> what `clocks` of the test must say of it, so that
+    the two agree [s], where that is more than the shift. stays: a clock of the two is declared for all tests."""
 
     campaign: str
     test: str
@@ -35,6 +37,8 @@ class OddEnds:
     shift_s: float
     said: str
     seen: str = ""
+    in_place: Mapping[str, float] = field(default_factory=dict)
+    stays: bool = False
 
     @property
     def key(self) -> Key:
@@ -70,10 +74,11 @@ class Ends:
         return any(meets(some, clocks) and not any(m in some for m in clocks) for some in said)
 
     def moves(self, home: str | None) -> list[list[ClockMoved]]:
-        """What makes logs agree with that of the response: in some tests one source, by one shift, and so on."""
+        """What makes logs agree with that of the response: in some tests one source, by one shift, and so on; but for
+        clocks that somebody declared."""
         found: dict[tuple[str, str], list[ClockMoved]] = {}
         for odd in self.odd:
-            if (one := odd.move(home)) is not None:
+            if not odd.stays and (one := odd.move(home)) is not None:
                 found.setdefault((one.source, odd.said), []).append(one)
         return list(found.values())
 
@@ -88,9 +93,10 @@ class Ends:
                 continue
             # what to try is told once, and here it is known which log to move
             said = odd.said if move is None else odd.seen or odd.said
-            then = f"Nothing was moved for it here, for {_BY_NO_HEAT if move is not None else _IN_NEITHER}"
+            why = _IN_NEITHER if move is None else _STAYS if odd.stays else _BY_NO_HEAT
+            then = f"Nothing was moved for it here, for {why}"
             if move is not None:
-                line = f"clocks: {{{move.source}: {move.moved_s:.0f} s}}"
+                line = f"clocks: {{{move.source}: {odd.in_place.get(move.source, move.moved_s):.0f} s}}"
                 then += (
                     f". To try it, write {line} into the line of test '{odd.test}' in the campaign file, then "
                     "thermodata ingest, fit and diagnose again: the smaller error on left-out tests is right"
@@ -117,10 +123,15 @@ def _told(campaign: str, test: str, why: str) -> Artefact:
 
 
 UNKNOWN = Ends()
+_ASKED = ("source", "start_ns", "step_s", "rows", "clock", "offset_ns")
 _BY_HEAT = "what the commands of one log warm, by the other one, comes at the right time so"
 _BY_NO_HEAT = (
     "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms "
     "in the test, or a log was switched on late"
+)
+_STAYS = (
+    "the campaign file declares one of the two clocks for all tests, and what it says of a clock is never overridden: "
+    "the line of one test stands in place of that"
 )
 _BY_NO_HEAT_AT_ALL = (
     "no heat tells which of the two is off: it takes two temperatures of one log that follow the commands of the other"
@@ -144,11 +155,15 @@ def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
 
 
 def ends_of_logs(store: Store, model: Loaded) -> Ends:
-    """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared."""
+    """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared in that test: what
+    is said of all tests says nothing of one that stands elsewhere."""
     from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
     from thermodata.store.ingest.told.whole_hours import whole_hours
+    from thermodata.view.grid.describe import declared_clocks
 
     here = {(t.campaign, t.test) for t in model.data.tests}
+    with store.reader() as con:
+        word = declared_clocks(con, sorted({c for c, _ in here}))
     declared = {
         (t.campaign, t.test, c.source) for t in model.data.tests for c in t.channels.values() if c.clock_declared
     }
@@ -161,13 +176,20 @@ def ends_of_logs(store: Store, model: Loaded) -> Ends:
         agree |= {(campaign, test): sources for test, sources in together(rows, said).items()}
         hours[campaign] = whole_hours(rows, said)
         odd += [
-            OddEnds(campaign, test, one.late, one.early, one.shift_s, str(one), one.seen)
+            _as_told(one, campaign, test, word)
             for one in odd_clocks(rows)
             for test in one.tests
-            if (campaign, test) in here
-            and declared.isdisjoint((campaign, test, source) for source in (one.late, one.early))
+            if (campaign, test) in here and word.isdisjoint((campaign, test, s) for s in (one.late, one.early))
         ]
     return Ends(tuple(odd), agree, hours)
+
+
+def _as_told(one: OddClock, campaign: str, test: str, word: Collection[tuple[str, str, str]]) -> OddEnds:
+    """word: the clocks that somebody declared, (campaign, test, source); test '': in all of them."""
+    both = (one.late, one.early)
+    stays = any((campaign, "", source) in word for source in both)
+    in_place = {source: one.in_place(source) for source in both}
+    return OddEnds(campaign, test, *both, one.shift_s, str(one), one.seen, in_place, stays)
 
 
 def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:
@@ -175,10 +197,8 @@ def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:
     found: dict[str, list[dict[str, object]]] = {}
     with store.reader() as con:
         rows = con.execute(
-            "select test, source, start_ns, step_s, rows, clock from source where campaign = ? order by rowid",
-            [campaign],
+            f"select test, {', '.join(_ASKED)} from source where campaign = ? order by rowid", [campaign]
         ).fetchall()
-    names = ("source", "start_ns", "step_s", "rows", "clock")
     for test, *of_source in rows:
-        found.setdefault(test, []).append(dict(zip(names, of_source, strict=True)))
+        found.setdefault(test, []).append(dict(zip(_ASKED, of_source, strict=True)))
     return found

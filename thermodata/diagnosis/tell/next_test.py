@@ -77,7 +77,9 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     other = others[0]
     if other.protocol is not None:
         return f"to tell {mine.id} from {other.id}: {other.protocol}"
-    if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
+    moving = [_moves(one, channels) for one in (mine, other)]
+    at_one_place = bool(_places(mine, channels)) and _places(mine, channels) == _places(other, channels)
+    if at_one_place and not any(moving):
         return (
             f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
             f"sensor nearer to the source of heat"
@@ -85,8 +87,11 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     own = [c for c in mine.channels if c not in other.channels] or list(mine.channels)
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
-    if quantity == "temperature" and own[0] in channels and other.channels and _moves(other, channels):
+    if quantity == "temperature" and own[0] in channels and other.channels and moving == [False, True]:
         how = _BY_HEAT_OR_MOTION.format(warm=own[0], moves=listed(other.channels))
+    elif at_one_place and mine.channels and moving == [True, False]:
+        warm = [c for c in other.channels if c not in mine.channels]
+        how = _BY_HEAT_OR_MOTION.format(warm=listed(warm or other.channels), moves=listed(mine.channels))
     return f"to tell {mine.id} from {other.id}: {how.format(axis=_axis(own, channels))}"
 
 

@@ -18,9 +18,11 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
     of the open ones, in a word."""
     if held.before is None or held.after is None:
         return ""
-    what = " with all that is claimed" if together else ""
-    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} the error goes {from_to(held.before, held.after, unit, 'from', 'to')}"
+    error = f"error goes {from_to(held.before, held.after, unit, 'from', 'to')}"
+    figures = f"; on the locked tests{' with all that is claimed' if together else ''} the {error}"
+    if held.asked == frozenset():
+        all_of_it = "all that is claimed" if together else "it"
+        figures = f"; it acts little in the locked tests, and was not held against them; with {all_of_it} their {error}"
     way_of = _in_one_way(s, s.looked, tests) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:

@@ -17,7 +17,7 @@ from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.agreed.limits import OF_NOTHING, PLAUSIBLE
-from thermodata.schema.words.sentences import apart, in_percent
+from thermodata.schema.words.sentences import apart, beside
 
 Doubt = Literal["none", "some", "all"]
 """Whether any heat is missing: more is left than of machines that lack nothing, as much, or as a good model leaves."""
@@ -88,8 +88,8 @@ def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: s
         return None
     sure, limit = probability(head), limit_of(head)
     stopped = (
-        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit "
-        f"{in_percent(limit)})"
+        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only "
+        f"({beside(sure, limit)})"
         if sure < limit
         else "alone it keeps the rules of a claim, but not beside what else was chosen"
     )

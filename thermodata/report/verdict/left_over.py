@@ -71,6 +71,24 @@ def as_of_nothing(found: Diagnosis) -> str:
     return f"models of machines that lack nothing leave as much ({percent(left / response)} of the response)"
 
 
+def stays(found: Diagnosis) -> str:
+    """'3.77 um stay then, 30 % of the response, ...': what refinements leave, where that is more than is left alone;
+    else ''."""
+    from thermodata.diagnosis.claims.measure import FLOOR_SHARE, GOOD_SHARE
+
+    left, response = found.named_rmse_um, found.response_um
+    if left is None or not response or left > (found.rmse_um or 0.0):
+        return ""
+    if left <= max(FLOOR_SHARE * response, NOISY * noise_of_left_out(found)):
+        return ""
+    said = f"{number(left)} um stay then, {percent(left / response)} of the response"
+    if found.weak_spots:
+        worst = found.weak_spots[0]
+        said += f" (the model fails most in {worst.test}, from {duration(worst.from_s)} to {duration(worst.to_s)})"
+    more = "more than is mostly left of a machine that lacks nothing: heat of what nobody logs may be in it"
+    return f"{said}, {more}" if left > GOOD_SHARE * response else said
+
+
 def otherwise(found: Diagnosis) -> str:
     """What the model itself leaves, where that is much more than with its effects free to act otherwise, or is the
     level of tests that begin with something on; else ''."""

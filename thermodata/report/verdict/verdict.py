@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
 from thermodata.report.verdict.could_hide import could_be
-from thermodata.report.verdict.left_over import as_of_nothing, left_over, most_left, offered, on_left_out
+from thermodata.report.verdict.left_over import as_of_nothing, left_over, most_left, offered, on_left_out, stays
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
@@ -127,7 +127,9 @@ def _verdict(found: Diagnosis) -> str:
     doubt = clock_in_doubt(found)
     as_dated = AS_DATED if doubt else ""
     if found.verdict == "refine" and refined and not any(c.as_modelled for c in refined):
-        return "; ".join(filter(None, [doubt, f"{NO_MORE}{as_dated}", told_with_errors(found), open_still]))
+        return "; ".join(
+            filter(None, [doubt, f"{NO_MORE}{as_dated}", told_with_errors(found), stays(found), open_still])
+        )
     if found.verdict == "none" or any(c.as_modelled for c in refined):
         named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
         mend = offered(found)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+A_HAIR = 0.02  # of a limit: what misses it by no more was decided by little
+
 
 def listed(names: Sequence[str], last: str = "and") -> str:
     """'a', 'a and b', 'a, b and c'. last: the word before the last of several."""
@@ -37,6 +39,14 @@ def apart(value: float, limit: float) -> str:
     """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
     texts = [in_percent(value, digits) for digits in range(3)]
     return next((t for digits, t in enumerate(texts) if t != in_percent(limit, digits)), texts[0])
+
+
+def beside(value: float, limit: float, digits: int = 0) -> str:
+    """'limit 65 %', behind a value that misses it; 'just under the limit of 65 %' where it does so by a hair."""
+    said = in_percent(limit, digits)
+    if abs(value - limit) > A_HAIR * abs(limit) * (1 + 1e-9):
+        return f"limit {said}"
+    return f"just {'under' if value < limit else 'over'} the limit of {said}"
 
 
 def _parted(names: Iterable[str], most: int) -> tuple[str, int]:

@@ -80,7 +80,7 @@ def channel_infos(
         "and k.calibration = c.calibration where list_contains(?, c.campaign) and quantity <> 'label' order by c.rowid",
         [list(campaigns)],
     ).fetchall()
-    flagged, declared = flagged_channels(con, campaigns), _declared_clocks(con, campaigns)
+    flagged, declared = flagged_channels(con, campaigns), declared_clocks(con, campaigns)
     masks = _masks(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit, scale in rows:
@@ -121,7 +121,7 @@ def _masks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> dict[tup
     return found
 
 
-def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:
+def declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:
     """(campaign, test, source), where the campaign file gives the offset of a clock, or what it is aligned to; test '':
     in all of them."""
     rows = con.execute("select campaign, spec from campaign where list_contains(?, campaign)", [list(campaigns)])

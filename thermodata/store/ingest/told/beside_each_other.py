@@ -7,7 +7,7 @@ elsewhere, was dated by a clock that was not right.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import numpy as np
@@ -28,22 +28,29 @@ Declared = Mapping[str, Mapping[str, float]]  # test -> source -> what its `cloc
 
 @dataclass(frozen=True, slots=True)
 class OddClock:
-    """Tests in which the source `late` stands shift_s (> 0) later beside `early` than in the others, no fewer ones."""
+    """Tests in which the source `late` stands shift_s (> 0) later beside `early` than in the others, no fewer ones.
+    added: test -> source -> what its clock was given there [s], which `clocks` of that test stands in place of."""
 
     tests: tuple[str, ...]
     late: str
     early: str
     shift_s: float
     others: int
+    added: Declared = field(default_factory=dict)
 
     def __str__(self) -> str:
-        late, early = f"{self.late}: {-self.shift_s:.0f} s", f"{self.early}: {self.shift_s:.0f} s"
+        late, early = (_line({source: self.in_place(source)}) for source in (self.late, self.early))
         return (
             f"{self._seen(self.tests)}: was a clock set wrongly? "
-            f"try at {_these(self.tests)} clocks: {{{late}}} or clocks: {{{early}}}, or at "
+            f"try at {_these(self.tests)} {late} or {early}, or at "
             "the source clock: {align_to: ..., by: [...]}, which estimates the offset of each test from what both "
             "logged"
         )
+
+    def in_place(self, source: str) -> float:
+        """What `clocks` of one of the tests must say of a source, so that the two agree [s]."""
+        added = [self.added.get(test, {}).get(source, 0.0) for test in self.tests]
+        return float(np.median(added)) + (-self.shift_s if source == self.late else self.shift_s)
 
     @property
     def seen(self) -> str:
@@ -73,8 +80,8 @@ class OddClock:
                 "within a log whose clock was right (a buffer), as what they heat or move says; take it out where a "
                 "clock was meant"
             )
-        by = {self.late: -self.shift_s, self.early: self.shift_s}
-        tries = [_line({**declared, source: declared.get(source, 0.0) + by[source]}) for source in by]
+        here = replace(self, tests=tests, added={t: {**self.added.get(t, {}), **declared} for t in tests})
+        tries = [_line({**declared, source: here.in_place(source)}) for source in (self.late, self.early)]
         return (
             f"{self._seen(tests)}, though {line} is declared at {_these(tests)}: was it not enough, or the other way? "
             f"try in its place {' or '.join(tries)}"
@@ -105,8 +112,12 @@ def odd_clocks(rows: Rows) -> list[OddClock]:
             places, shift_s = odd
             late, early = (one, other) if shift_s > 0 else (other, one)
             names = tuple(list(apart)[i] for i in places)
-            found.append(OddClock(names, late, early, abs(shift_s), len(apart) - len(names)))
+            found.append(OddClock(names, late, early, abs(shift_s), len(apart) - len(names), _added(rows, names)))
     return found
+
+
+def _added(rows: Rows, tests: Collection[str]) -> dict[str, dict[str, float]]:
+    return {t: {r["source"]: r.get("offset_ns", 0) / 1e9 for r in rows[t]} for t in tests}
 
 
 def together(rows: Rows, declared: Mapping[str, Collection[str]] | None = None) -> dict[str, frozenset[str]]:

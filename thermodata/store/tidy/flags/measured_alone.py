@@ -16,6 +16,8 @@ from thermodata.schema.flag import Flag
 STANDS = 4  # stretches that are measured, and the same value in all of them and between: it stands still indeed
 # what a value is accused of for coming again, and for standing out from what is no measurement beside it
 DOUBTED = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.SPIKE)
+# as which of these one value is told hangs on how much of the log stands on it: each bears out the others
+_COMES_AGAIN = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED)
 
 
 def cleared(
@@ -34,11 +36,16 @@ def cleared(
         mask = masks[names[0]]
         alone, _ = flag_stream(t_ns[mask], {n: _part(c, mask) for n, c in columns.items()})
         for name in names:
-            doubted = _accused(columns[name], flags[name])[mask] & DOUBTED & ~alone[name]
+            doubted = _accused(columns[name], flags[name])[mask] & DOUBTED & ~_borne_out(alone[name])
             doubted[_stands(columns[name].values, mask)[mask]] = 0
             found[name] = flags[name].copy()
             found[name][mask] &= ~doubted
     return found
+
+
+def _borne_out(flags: Array) -> Array:
+    again = np.where((flags & _COMES_AGAIN) != 0, _COMES_AGAIN, np.uint16(0))
+    return np.asarray(flags | again)
 
 
 def _stands(values: Array, mask: Bool1D) -> Bool1D:
