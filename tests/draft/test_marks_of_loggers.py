@@ -22,7 +22,7 @@ def test_a_mark_does_not_make_a_displacement_a_position(mark: float) -> None:
     seen = _with(mark)
     assert seen.high < 1.0
     said = guess("Taster_Z", "mm", "float64", seen)
-    assert "a position, or a displacement?" in said.comment()
+    assert "displacement, or the position of the axis?" in said.comment()
 
 
 @pytest.mark.parametrize("value", [2500.0, 123456.0, 100000.0])
