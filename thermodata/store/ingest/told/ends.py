@@ -70,7 +70,7 @@ def with_lengths(rows: Rows, files: Rows) -> dict[str, list[dict[str, Any]]]:
 
 def _lasts_s(raws: list[RawStream]) -> float | None:
     """[s]; None of several files whose times count from nowhere."""
-    if len(raws) > 1 and any(r.clock == "relative" and r.start_ns is None for r in raws):
+    if len(raws) > 1 and any(r.is_undated for r in raws):
         return None
     spans = [recorded(r) for r in raws]
     return (max(last for _, last in spans) - min(first for first, _ in spans)) / 1e9
