@@ -70,3 +70,9 @@ def test_a_zone_that_a_text_says_of_a_clock_is_offered_at_its_question(
     assert say("init", tmp_path).code == 0
     (line,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
     assert (f"Info.txt says '{said}': timezone: {zone}?" in line) is (zone is not None)
+
+
+@pytest.mark.parametrize("hostile", ["1" * 99_000, "geht " * 19_000])
+def test_a_sentence_longer_than_anybody_writes_says_nothing(hostile: str) -> None:
+    """Its patterns take the square of its length: ten minutes of these."""
+    assert offset_of(hostile + "clock 3 min slow") is None

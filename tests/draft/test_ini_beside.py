@@ -50,3 +50,9 @@ def test_what_stands_beside_a_headless_log_is_offered_and_asked(tmp_path: Path) 
 def test_only_what_is_said_is_offered(tmp_path: Path, lines: str, offered: str) -> None:
     (tmp_path / "a.ini").write_text(f"[A]\n{lines}\n")
     assert offered_by_ini(tmp_path / "a.txt") == offered
+
+
+def test_a_line_of_blanks_is_answered_at_once(tmp_path: Path) -> None:
+    """A pattern with blanks before and behind its key took the square of them: 11 s of 19,000."""
+    (tmp_path / "E1.ini").write_text(" " * 19_000 + "a\nPeriode_s=5\n")
+    assert "period: 5 s?" in offered_by_ini(tmp_path / "E1.txt")

@@ -20,6 +20,7 @@ from thermodata.schema.units.quantity import (
     split_value,
     value_in,
 )
+from thermodata.schema.units.time_of_parts import time_of_parts
 
 
 @pytest.mark.parametrize(
@@ -154,3 +155,9 @@ def test_units_at_hand_are_units_of_pint() -> None:
         registry.parse_units(unit)
         assert is_unit(unit)
     assert not any(is_unit(word) for word in ("", "  ", "x", "hour12", "speed"))
+
+
+@pytest.mark.parametrize("blanks", ["1" + " " * 5000 + "x", " " * 5000 + "1 h 1 s", "1 h" + " " * 5000 + "x"])
+def test_a_time_of_many_blanks_is_answered_at_once(blanks: str) -> None:
+    """A pattern whose parts may all be missing tried every way to share the blanks out: 200 took for ever."""
+    assert time_of_parts(blanks) == (3601.0 if blanks.endswith("s") else None)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from thermodata_reader_cnc import Reader
 from thermodata_reader_cnc.opcua import long_table
+from thermodata_reader_cnc.opcua.row_units import number_and_unit
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
@@ -291,3 +292,9 @@ def test_a_row_may_hold_fewer_of_its_names_and_values(tmp_path: Path) -> None:
 def test_numbers_of_channels_before_values_are_no_names() -> None:
     rows = [f"{stamp(k)},{k},{20 + k / 8},{2 * k},{10 + k / 8}" for k in range(N)]
     assert long_table.claims(["time,channel1,value1,channel2,value2", *rows]) is None
+
+
+def test_a_cell_of_blanks_is_answered_at_once() -> None:
+    """The pattern takes the square of its letters: a minute of 100,000 blanks."""
+    assert number_and_unit("1" + " " * 100_000 + "x") is None
+    assert number_and_unit("1 234,5 rpm") == (1234.5, "rpm")

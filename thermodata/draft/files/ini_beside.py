@@ -11,7 +11,7 @@ from thermodata.reader.text.file.encoding import decode_head
 
 _SUFFIXES = (".ini", ".cfg", ".INI", ".CFG")
 _LARGEST, _SHOWN, _MOST = 20_000, 60, 40  # bytes; letters of a line; names
-_LINE = re.compile(r"^\s*([^;#\[=][^=]{0,40}?)\s*=\s*(\S.*?)\s*$")
+_LONGEST_KEY, _NO_KEY = 40, (";", "#", "[")
 _UNIT = r"(?:[ _]?[\[(]?(?P<unit>ms|sec|s|min)[\])]?)?"
 _PERIOD = re.compile(
     rf"(?i)(?:p[ée]riode?|periodo|interval(?:l|le|lo)?|messintervall|sample[ _]?(?:time|period|interval)|"
@@ -39,7 +39,12 @@ def _lines(path: Path) -> Mapping[str, str]:
     except OSError:
         return {}
     text = (decode_head(data) or data.decode("cp1252", "replace")) if len(data) <= _LARGEST else ""
-    return {m[1]: m[2] for line in text.splitlines() if (m := _LINE.match(line)) is not None}
+    parted = ([part.strip() for part in line.partition("=")] for line in text.splitlines())
+    return {
+        key: value
+        for key, _, value in parted
+        if key and value and len(key) <= _LONGEST_KEY and not key.startswith(_NO_KEY)
+    }
 
 
 def _quoted(lines: Mapping[str, str], key: str) -> str:

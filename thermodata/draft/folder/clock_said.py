@@ -19,6 +19,7 @@ _CLOCK = r"\b(?:clocks?|uhr|systemuhr|hodiny|horloge|orologio|reloj)\b"
 _SLOW = r"slow|behind|(?:geht|ging|gehen)[^.;\n]*\bnach|pozadu|zpozd\w+|retard|ritardo|indietro|atras\w+"
 _FAST = r"fast|ahead|(?:geht|ging|gehen)[^.;\n]*\bvor|napred|napřed|avance|anticipo|avanti|adelant\w+"
 _SHOWN = 80  # letters of a sentence
+_LONGEST = 600  # letters of a sentence that says it: the patterns take the square of them
 _UNITS = {"s": "s", "m": "min", "h": "h", "o": "h"}
 _LENGTHS = ("h", "min", "s")  # the parts of an amount, in their order
 _ABOUT = re.compile(r"\b(env|ca|cca|approx|circ|abt|ungef|etw|asi|aprox)\.", re.IGNORECASE)  # whose dot ends nothing
@@ -41,6 +42,8 @@ def clocks_said(folder: Path, texts: Sequence[str]) -> list[str]:
 
 def offset_of(sentence: str) -> str | None:
     """'37 min' of a clock that is 37 min slow, '-37 min' of one that is fast; None where it is not said, or both."""
+    if len(sentence) > _LONGEST:
+        return None
     amounts = set(_amounts(sentence))
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
     if len(amounts) != 1 or not re.search(_CLOCK, sentence, re.IGNORECASE) or bool(slow) == bool(fast):

@@ -20,6 +20,7 @@ from thermodata_reader_cnc.opcua.long_layout import Layout
 _WITH_UNIT = re.compile(
     r"(?P<number>[+-]?\d[\d.,' \u00a0\u202f]*?(?:[eE][+-]?\d+)?)\s*(?P<unit>[^\d\s.,+-][^\s]{0,11})"
 )
+_LONGEST = 64  # letters of a number with its unit: the pattern takes the square of them
 _NEARLY_ALL = 0.9  # of a tag's values, that name their unit
 
 
@@ -69,7 +70,8 @@ def units_behind(layout: Layout, lines: Sequence[str]) -> tuple[dict[str, str], 
 @lru_cache(maxsize=1 << 16)
 def number_and_unit(text: str) -> tuple[float, str] | None:
     """(20.98, '°C') of '20.98 °C'; None of a bare number, and of words. Blanks may part thousands."""
-    match = _WITH_UNIT.fullmatch(text.strip())
+    text = text.strip()
+    match = _WITH_UNIT.fullmatch(text) if len(text) <= _LONGEST else None
     if match is None or not is_surely_unit(match["unit"]):
         return None
     number = of_either_mark(match["number"].strip())
