@@ -235,3 +235,28 @@ def test_names_may_hold_dots_beside_structs_that_are_taken_apart(tmp_path: Path)
     assert set(values) == {"Temp", "Temp. Motor [degC]", "Temp.a", "hall/top.left", "hall/b"}
     for name, first in (("Temp", 10.0), ("Temp. Motor [degC]", 20.0), ("Temp.a", 30.0), ("hall/top.left", 0.0)):
         assert values[name].tolist() == [first + i for i in range(5)]
+
+
+def test_the_file_is_closed_though_something_still_refers_to_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A thread of Arrow may do so for a while: left to Python, Windows would not let the user rename the file."""
+    path, opened = tmp_path / "a.parquet", list[pq.ParquetFile]()
+    pq.write_table(pa.table({"t [s]": np.arange(5.0), "T1 [degC]": np.arange(5.0)}), path)
+
+    class Remembered(pq.ParquetFile):  # type: ignore[misc]
+        def __init__(self, *args: Any, **kwargs: Any) -> None:
+            super().__init__(*args, **kwargs)
+            opened.append(self)
+
+    monkeypatch.setattr(pq, "ParquetFile", Remembered)
+    reader = Reader()
+    reader.describe(path, Source())
+    items = reader.blocks(path, Source())
+    next(items)
+    items.close()
+    assert reader.locate(path, Source(), "table", 3) is not None
+    with pytest.raises(UsageError):
+        reader.describe(path, Source(table={"time": {"column": "missing"}}))
+    assert len(opened) >= 4
+    assert all(file.closed for file in opened)

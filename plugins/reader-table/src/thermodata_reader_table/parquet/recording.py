@@ -17,7 +17,7 @@ from thermodata.reader.typed_columns import Related, Relating, related, rows_loo
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.damage import damage_as_format_error
-from thermodata_reader_table.parquet.table import Table
+from thermodata_reader_table.parquet.table import Table, open_table
 
 STREAM = "table"
 _ROWS = 250_000
@@ -26,9 +26,19 @@ _ROWS = 250_000
 def describe(path: Path, source: Source) -> Recording:
     """The one stream of a file, or that of each of its series. FormatError: damaged, no time, or a long table that
     can't be taken apart."""
+    with open_table(path, source) as table:
+        return _recording(table)
+
+
+def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
+    """The values as stored, times in ns since 1970 UTC (or since the start), and rows that have no time as a loss."""
+    with open_table(path, source) as table:
+        yield from _blocks(table)
+
+
+def _recording(table: Table) -> Recording:
     from thermodata_reader_table.parquet.row_series import series_of
 
-    table = Table(path, source)
     apart = series_of(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
@@ -60,18 +70,16 @@ def describe(path: Path, source: Source) -> Recording:
     )
 
 
-def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
-    """The values as stored, times in ns since 1970 UTC (or since the start), and rows that have no time as a loss."""
+def _blocks(table: Table) -> Iterator[Block | Loss]:
     from thermodata_reader_table.parquet.row_series import series_of
 
-    table = Table(path, source)
     series = series_of(table).series
     if series is None:
         told, (unit, _) = of_one_series(table)
         rows = _rows(table, told, unit)
-        yield from rows if unit is None else in_one_unit(rows, unit, path.name)
+        yield from rows if unit is None else in_one_unit(rows, unit, table.path.name)
         return
-    apart = TakenApart(series, path.name)
+    apart = TakenApart(series, table.path.name)
     for item in _rows(table, Related()):
         yield from apart.split(item)
     yield from apart.rest()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -30,16 +31,25 @@ from thermodata_reader_table.parquet.time_column import Columns, find_time_colum
 _ROWS = 1_000_000  # whose times are read at once
 
 
+@contextmanager
+def open_table(path: Path, source: Source) -> Iterator[Table]:
+    """A file, closed at the end of the block. Left to Python it would be closed when nothing refers to it, and a thread
+    of Arrow may do so for a while after a reading was given up. FormatError: damaged, or without a time."""
+    import pyarrow.parquet as pq
+
+    with damage_as_format_error(path):
+        # of pages that have a checksum
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+    with file:
+        yield Table(path, source, file)
+
+
 class Table:
     """An open file: its schema, and which columns hold the time."""
 
-    def __init__(self, path: Path, source: Source) -> None:
-        import pyarrow.parquet as pq
-
-        self.path, self.source = path, source
+    def __init__(self, path: Path, source: Source, file: Any) -> None:
+        self.path, self.source, self.file = path, source, file
         with damage_as_format_error(path):
-            # of pages that have a checksum
-            self.file = pq.ParquetFile(path, page_checksum_verification=True)
             self.schema = self.file.schema_arrow
             self.schema, self.places = flat(self.schema)
             check_footer(path, self.file.schema)
