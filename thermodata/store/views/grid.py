@@ -3,7 +3,8 @@
 The grid is taken from the sources' own extent: point k stands at k * step from the test's start.
 
 `binned` is for fitting. Bin k holds the samples of [k * step, (k + 1) * step); a measurement is the mean of its
-valid ones. States, labels and schedules are held: the last valid value in the bin or before it. A number that is
+valid ones; of a speed, feed, load, current or torque that goes both ways in the bin, of its size: heat knows no
+direction. States, labels and schedules are held: the last valid value in the bin or before it. A number that is
 written on change is held too, until a row says that there is none, and a bin has its mean over the time. Where a source
 is slower than the step (period over half a step), empty bins between valid ones are interpolated linearly, over
 at most INTERPOLATED_PERIODS of the source's period; every other bin without a valid sample is NULL.
@@ -17,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from thermodata.schema.flag import INVALID
+from thermodata.schema.units.quantity import UNDIRECTED
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, of_each_test
@@ -26,6 +28,7 @@ AGED_PERIODS = 3.5
 MAX_POINTS = 20_000_000
 # 30 us on a grid of 30 s: times such as 29.999999999 belong to the point that they mean
 _SLACK = 1e-6
+ONE_WAY = 1 - 1e-9  # of the mean size of what goes one way, by rounding
 _EMPTY = "select null::varchar as campaign, null::varchar as test, null::timestamp_ns as t, null::double as t_s limit 0"
 
 _SECONDS = "coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval)))"
@@ -117,20 +120,31 @@ def bin_value(column: Column, invalid: int = int(INVALID)) -> str:
         return f"arg_max({value}, r.t_s) filter (where {value} is not null and ({flag} & {invalid}) = 0{good})"
     # a CASE inside the mean: twice as fast as FILTER
     number = f"cast({value} as double)"
-    return f"avg(case when ({flag} & {invalid}) = 0 and not isnan({number}) then {number} end)"
+    mean, size = (
+        f"avg(case when ({flag} & {invalid}) = 0 and not isnan({number}) then {told} end)"
+        for told in (number, f"abs({number})")
+    )
+    return _either_way(mean, size) if column.quantity in UNDIRECTED else mean
+
+
+def _either_way(mean: str, size: str) -> str:
+    """SQL of a mean, and of the mean of the absolute values where it is of both signs."""
+    return f"case when abs({mean}) < {ONE_WAY} * {size} then {size} else {mean} end"
 
 
 def held_sums(column: Column, step: str, invalid: int = int(INVALID), name: str = "") -> str:
     """SQL of what a number that is written on change was for in its bin, from its first row there on: the sum of value
-    times time, and the time in which it had one. Rows need `next__s`, the time of the next one.
+    times time, the same of its size, and the time in which it had one. Rows need `next__s`, the time of the next one.
     name: of the sums, the column's where it is empty."""
     value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
     valid = f"{value} is not null and ({flag} & {invalid}) = 0 and not isnan(cast({value} as double))"
     name = name or column.name
     until = f"least(coalesce(r.next__s, 'infinity'::double), ({bin_index(step)} + 1) * {step})"
     lasts = f"greatest({until} - r.t_s, 0)"
+    number = f"cast({value} as double)"
     return (
-        f"sum(case when {valid} then cast({value} as double) * {lasts} else 0 end) as {quoted(name + '__sum')}, "
+        f"sum(case when {valid} then {number} * {lasts} else 0 end) as {quoted(name + '__sum')}, "
+        f"sum(case when {valid} then abs({number}) * {lasts} else 0 end) as {quoted(name + '__size')}, "
         f"sum(case when {valid} then {lasts} else 0 end) as {quoted(name + '__for')}"
     )
 
@@ -140,7 +154,8 @@ def _filled(i: int, column: Column) -> str:
     value, n = f"s__{i}.{quoted(column.name)}", f"{i}__{column.name}"
     last = f"last_value({value} ignore nulls) over before as {quoted('pv__' + n)}"
     if column.on_change:
-        own = ", ".join(f"s__{i}.{quoted(f'{column.name}__{w}')} as {quoted(f'{w}__{n}')}" for w in ("sum", "for"))
+        told = ("sum", "size", "for")
+        own = ", ".join(f"s__{i}.{quoted(f'{column.name}__{w}')} as {quoted(f'{w}__{n}')}" for w in told)
         until_then = f"last_value({value} ignore nulls) over earlier as {quoted('nv__' + n)}"
         return f"{value} as {quoted('v__' + n)}, {last}, {until_then}, {own}, s__{i}.first__s as {quoted('nk__' + n)}"
     if column.held:
@@ -159,13 +174,17 @@ def _value(i: int, column: Column) -> str:
     v, pv, pk, nv, nk = (f"w.{quoted(f'{what}__{n}')}" for what in ("v", "pv", "pk", "nv", "nk"))
     if column.on_change:
         # what it was when the bin began counts until its first row; nv: NaN where there was none
-        total, lasted = (f"w.{quoted(f'{what}__{n}')}" for what in ("sum", "for"))
+        total, size, lasted = (f"w.{quoted(f'{what}__{n}')}" for what in ("sum", "size", "for"))
         before = f"greatest({nk} - w.k * p__step, 0)"
         known = f"{nv} is not null and not isnan({nv})"
-        return (
-            f"case when {v} is null then nullif({pv}, 'nan'::double) when {known} "
-            f"then ({total} + {nv} * {before}) / nullif({lasted} + {before}, 0) else {total} / nullif({lasted}, 0) end"
-        )
+
+        def over(of: str, earlier: str) -> str:
+            both = f"({of} + {earlier} * {before}) / nullif({lasted} + {before}, 0)"
+            return f"(case when {known} then {both} else {of} / nullif({lasted}, 0) end)"
+
+        mean = over(total, nv)
+        mean = _either_way(mean, over(size, f"abs({nv})")) if column.quantity in UNDIRECTED else mean
+        return f"case when {v} is null then nullif({pv}, 'nan'::double) else {mean} end"
     if column.held:
         return pv
     return (

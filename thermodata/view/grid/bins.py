@@ -11,9 +11,10 @@ import numpy as np
 
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.schema.units.quantity import UNDIRECTED
 from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
-from thermodata.store.views.grid import bin_index, bin_value, held_sums
+from thermodata.store.views.grid import ONE_WAY, bin_index, bin_value, held_sums
 from thermodata.store.views.wide import file_list
 from thermodata.view.grid.floats import floats
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     import duckdb
 
 Key = tuple[str, str]
+_SUMS = ("__sum", "__size", "__for")
 _SHIFTED = int(INVALID & ~Flag.OFFSET)  # the flags that rule a sample of a sensor out that is off by one number
 
 
@@ -175,7 +177,7 @@ class _Rows:
     def told(self, channel: str, name: str) -> Float1D:
         """A column of a channel's, shape (n,)."""
         ending = name.removeprefix(channel)
-        as_read = channel in self.off and ending in ("", "__sum", "__for")
+        as_read = channel in self.off and ending in ("", *_SUMS)
         return self.of(_as_read(channel) + ending if as_read else name).astype(float)
 
 
@@ -192,9 +194,13 @@ def _series(column: Column, k: Int1D, told: Callable[[str], Float1D], step_s: fl
     # a history stands before its test
     order = np.argsort(k, kind="stable")
     k, stands = k[order], value[order]
-    total, lasted, first_s = (told(name)[order] for name in (f"{column.name}__sum", f"{column.name}__for", "first__s"))
+    total, size, lasted = (told(column.name + ending)[order] for ending in _SUMS)
+    first_s = told("first__s")[order]
     until_then = np.concatenate([[np.nan], stands[:-1]])
     before = np.where(np.isfinite(until_then), np.maximum(first_s - k * step_s, 0.0), 0.0)
-    lasted = lasted + before
-    mean = (total + np.nan_to_num(until_then) * before) / np.where(lasted > 0, lasted, np.nan)
+    earlier = np.nan_to_num(until_then) * before
+    total, size, lasted = total + earlier, size + np.abs(earlier), lasted + before
+    if column.quantity in UNDIRECTED:
+        total = np.where(np.abs(total) < ONE_WAY * size, size, total)
+    mean = total / np.where(lasted > 0, lasted, np.nan)
     return Series(k, mean, period, stands, True)
