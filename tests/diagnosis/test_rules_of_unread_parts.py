@@ -144,6 +144,15 @@ def test_what_a_spindle_takes_up_heats_its_motor_too(quantity: str, name: str) -
     assert unread(ChannelInfo("pump", "state", "1", at="coolant"))["coolant:pump"] == ("fixture",)
 
 
+def test_torque_and_speed_are_what_a_spindle_takes_up_and_either_alone_is_not() -> None:
+    torque, speed = ("M", "torque", "N m"), ("n", "rotational_speed", "rpm")
+    both = unread(*(ChannelInfo(*told, at="spindle") for told in (torque, speed)))
+    assert both["cutting_torque:M,n"] == ("spindle.motor", "fixture")
+    assert {name for name in both if not name.startswith("cutting")} == set()
+    of_turret = unread(ChannelInfo(*torque, at="turret"), ChannelInfo(*speed, at="spindle"))
+    assert of_turret == {}
+
+
 def test_what_does_not_reach_the_working_space_warms_no_holder_of_probes() -> None:
     assert unread(ChannelInfo("P_z", "power", "kW", at="axis.z.motor")) != {}, "the heat of its axis"
     assert unread(ChannelInfo("P_table", "power", "kW", at="table")) == {}

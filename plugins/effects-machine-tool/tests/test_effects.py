@@ -7,13 +7,18 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 from thermodata_effects_machine_tool.ambient import AmbientSkin
-from thermodata_effects_machine_tool.axis import FeedScrew, RotaryFriction, ScrewGrowth
+from thermodata_effects_machine_tool.axis import FeedMotorLosses, FeedScrew, RotaryFriction, ScrewGrowth, ScrewPower
 from thermodata_effects_machine_tool.generic import Step, WarmStart
 from thermodata_effects_machine_tool.measuring import RunoutAlias, SensorDrift
 from thermodata_effects_machine_tool.moments import Homing, Lubrication, ToolChange, rises
 from thermodata_effects_machine_tool.positioned import Overhang, ScaleGrowth
-from thermodata_effects_machine_tool.process import CoolantHeat, CuttingLoad
-from thermodata_effects_machine_tool.spindle import CentrifugalShift, SpindleFriction, SpindleHeatingCooling
+from thermodata_effects_machine_tool.process import CoolantHeat, CuttingLoad, CuttingTorque
+from thermodata_effects_machine_tool.spindle import (
+    CentrifugalShift,
+    SpindleFriction,
+    SpindleHeatingCooling,
+    SpindleMotorLosses,
+)
 
 from thermodata.effect import all_effects, effects
 from thermodata.effect.lag import lag
@@ -43,6 +48,21 @@ def test_a_centrifugal_shift_is_quadratic_at_once_and_forgets_the_direction() ->
 def test_friction_without_a_sensor_settles_at_a_power_of_the_speed() -> None:
     speed = np.full(len(T), 5000.0)
     column = SpindleFriction().basis(_drivers(speed=speed), {"tau": 30.0, "exponent": 2.0})[:, 0]
+    assert column[-1] == pytest.approx(0.25, rel=1e-3)
+
+
+def test_torque_and_speed_heat_as_the_power_that_they_are() -> None:
+    torque, speed = np.full(len(T), -30.0), np.full(len(T), 2000.0)  # driven the other way round
+    column = CuttingTorque().basis(_drivers(torque=torque, speed=speed), {"tau": 30.0})[:, 0]
+    assert column[-1] == pytest.approx(6.283, rel=1e-3)  # kW
+    column = ScrewPower().basis(_drivers(torque=torque, feed=np.full(len(T), 5.0)), {"tau": 30.0})[:, 0]
+    assert column[-1] == pytest.approx(1.5, rel=1e-3)
+
+
+@pytest.mark.parametrize(("effect", "rated"), [(FeedMotorLosses(), 10.0), (SpindleMotorLosses(), 50.0)])
+@pytest.mark.parametrize("role", ["torque", "current"])
+def test_a_motor_that_takes_half_has_a_quarter_of_the_losses(effect: FeedMotorLosses, rated: float, role: str) -> None:
+    column = effect.basis(_drivers(**{role: np.full(len(T), -rated / 2)}), {"tau": 30.0})[:, 0]
     assert column[-1] == pytest.approx(0.25, rel=1e-3)
 
 

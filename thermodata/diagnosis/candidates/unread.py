@@ -39,6 +39,7 @@ STANDS_IN_AIR: Mapping[str, tuple[str, ...]] = {"frame": ("hall", "outside"), HO
 # what is in the working space, and so warms what holds the probes there: by place, and what the spindle does to a part
 IN_WORKING_SPACE = ("coolant", "workpiece")
 CUTS = frozenset({"power", "load"})
+POWER_OF = frozenset({"torque", "rotational_speed"})  # what together is a power
 MOTOR = "motor"  # it warms with all that its axis rubs
 
 
@@ -59,7 +60,7 @@ def unread(
 ) -> tuple[str, ...]:
     """Places of the parts that it may be as well; none for what doesn't sit in one heat. channels: the usable ones.
     known: parts that the model has."""
-    if all(warms_the_holder(channels[n]) for n in names):
+    if all(warms_the_holder(channels[n]) for n in names) or _take_up_power(names, channels):
         places = STANDS_IN_AIR[HOLDER]
         told = Part(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
         return (*_motors(names, channels), *(() if told else places[:1]))
@@ -117,9 +118,16 @@ def _cuts(channel: Described) -> bool:
     return channel.quantity in CUTS and is_spindle(channel.at)
 
 
-def _motors(names: Iterable[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
+def _take_up_power(names: Iterable[str], channels: Mapping[str, Described]) -> bool:
+    """Whether torque and speed of a spindle say what it takes up."""
+    own = [channels[n] for n in names]
+    return {c.quantity for c in own} == POWER_OF and all(is_spindle(c.at) for c in own)
+
+
+def _motors(names: Collection[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
     """Of what spindles take up, the motors that no temperature reads."""
-    spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if _cuts(channels[n])}
+    power = _take_up_power(names, channels)
+    spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if power or _cuts(channels[n])}
     return tuple(place for one in sorted(spindles) if not reads(channels, place := f"{one}.{MOTOR}"))
 
 
