@@ -7,17 +7,17 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 from thermodata_effects_machine_tool.ambient import AmbientSkin
-from thermodata_effects_machine_tool.axis import FeedMotorLosses, FeedScrew, RotaryFriction, ScrewGrowth, ScrewPower
+from thermodata_effects_machine_tool.axis import FeedScrew, RotaryFriction, ScrewGrowth
+from thermodata_effects_machine_tool.drives import CuttingTorque, FeedMotorLosses, ScrewPower, SpindleMotorLosses
 from thermodata_effects_machine_tool.generic import Step, WarmStart
 from thermodata_effects_machine_tool.measuring import RunoutAlias, SensorDrift
 from thermodata_effects_machine_tool.moments import Homing, Lubrication, ToolChange, rises
 from thermodata_effects_machine_tool.positioned import Overhang, ScaleGrowth
-from thermodata_effects_machine_tool.process import CoolantHeat, CuttingLoad, CuttingTorque
+from thermodata_effects_machine_tool.process import CoolantHeat, CuttingLoad
 from thermodata_effects_machine_tool.spindle import (
     CentrifugalShift,
     SpindleFriction,
     SpindleHeatingCooling,
-    SpindleMotorLosses,
 )
 
 from thermodata.effect import all_effects, effects

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from thermodata.plugin import Drivers, Float1D, Need
 
 from .shared import (
@@ -13,17 +11,15 @@ from .shared import (
     REFERENCE_FEED_M_MIN,
     REFERENCE_SPEED_RPM,
     REFERENCE_TURNING_RPM,
+    SCREW_FRICTION,
     GrowsWithPosition,
     Lagged,
-    MotorLosses,
     exponent,
     gain,
     power_of,
     tau,
 )
 
-SCREW_FRICTION = "friction of the feed screw"
-"""By its temperature, by the feed, or by feed and torque it is the same."""
 ROTARY_HEAT = "heat of a rotary axis"
 """By its temperature or by its speed it is the same."""
 TURRET_HEAT = "heat of a turret"
@@ -64,34 +60,6 @@ class FeedScrew(Lagged):
         return drivers.values["temperature"]
 
 
-class ScrewPower(Lagged):
-    """What the motor of an axis takes to move it is friction of the screw, its nut, its bearings and the guideway.
-
-        d = k F_tau{|M v| / (10 N m 10 m/min)}
-
-    k [um] at 10 N m and 10 m/min, tau [min], torque M of the motor [N m], v [m/min].
-    Source: as feed_screw, torque times speed is power; bounds: docs/model.md#bounds-of-the-effects
-    """
-
-    name = "screw_power"
-    cause = SCREW_FRICTION
-    family = "feed_{a}"
-    meaning = "growth of the feed screw from the power that moves the axis: k F{|M v|}, of its motor's torque"
-    equation = "d = k F_tau{|M v| / (10 N m 10 m/min)}"
-    telltale = "twin of feed_screw; told apart by the same feed with another load on the table"
-    source = "as feed_screw, torque times speed is power; bounds: docs/model.md#bounds-of-the-effects"
-    needs = (
-        Need("torque", "torque", ("axis.{a}", "axis.{a}.motor", "axis.{a}.screw")),
-        Need("feed", "feed", ("axis.{a}",)),
-    )
-    params = (tau(60, 18, 240, reach=(1, 360)),)
-    gains = (gain("um", 0.5, 60, "displacement at rest at 10 N m and 10 m/min"),)
-    driven = ("abs(torque * feed / 100)",)
-
-    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        return np.asarray(np.abs(drivers.values["torque"] * drivers.values["feed"] / 100.0))
-
-
 class FeedMotor(Lagged):
     """Heat of the axis motor flows into screw and slide.
 
@@ -111,35 +79,6 @@ class FeedMotor(Lagged):
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
     params = (tau(60, 30, 180, reach=(1, 360)),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
-
-
-class FeedMotorLosses(MotorLosses):
-    """Losses in the winding of the axis motor flow into screw and slide.
-
-        d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}
-
-    k [um] at 10 N m (10 A), tau [min], torque M [N m] or current I [A] of the motor.
-    Source: [mayr2012] on feed drives: copper losses go with the current squared; bounds:
-    docs/model.md#bounds-of-the-effects
-    """
-
-    name = "feed_motor_losses"
-    cause = MOTOR_HEAT
-    family = "feed_{a}"
-    meaning = "heat of the axis motor from its torque or current: k F{M^2}, where no sensor is at the motor"
-    equation = "d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}"
-    telltale = "twin of feed_screw: the same axis moves; told apart by holding a load at rest"
-    source = (
-        "[mayr2012] on feed drives: copper losses go with the current squared; bounds: "
-        "docs/model.md#bounds-of-the-effects"
-    )
-    needs = (
-        Need("torque", "torque", ("axis.{a}", "axis.{a}.motor"), True),
-        Need("current", "current", ("axis.{a}", "axis.{a}.motor"), True),
-    )
-    params = (tau(60, 30, 180, reach=(1, 360)),)
-    gains = (gain("um", 0.5, 60, "displacement at rest at 10 N m (10 A)"),)
-    rated = 10.0
 
 
 class Guideway(Lagged):

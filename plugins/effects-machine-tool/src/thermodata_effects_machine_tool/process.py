@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from thermodata.plugin import Drivers, Float1D, Need
 
-from .shared import KILOWATTS_PER_NM_RPM, Lagged, gain, tau
+from .shared import CUTTING_HEAT, Lagged, gain, tau
 
-# one heat, read by the spindle's power or by what the cut warms: `cause` of these effects
-CUTTING_HEAT = "cutting heat"
 # one fluid, read by its switch, its flow or its temperature
 COOLANT_HEAT = "heat of the coolant"
 
@@ -80,34 +76,6 @@ class CuttingLoad(Lagged):
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["load"] / 100.0
-
-
-class CuttingTorque(Lagged):
-    """Heat of the cut, by torque and speed of the spindle, of a control that logs these and no power.
-
-        d = k F_tau{|M n| 2 pi / 60000}
-
-    k [um/kW], tau [min], torque M [N m], n [rpm].
-    Source: as cutting_power, which is torque times speed; bounds: docs/model.md#bounds-of-the-effects
-    """
-
-    name = "cutting_torque"
-    cause = CUTTING_HEAT
-    family = "cutting"
-    meaning = "heat of cutting from the spindle's torque and speed: k F{|M n|}, where no power is logged"
-    equation = "d = k F_tau{|M n| 2 pi / 60000}"
-    telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"
-    source = "as cutting_power, which is torque times speed; bounds: docs/model.md#bounds-of-the-effects"
-    needs = (
-        Need("torque", "torque", ("{s}spindle", "{s}spindle.motor")),
-        Need("speed", "rotational_speed", ("{s}spindle",)),
-    )
-    params = (tau(30, 1, 240),)
-    gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
-    driven = (f"abs(torque * speed) * {KILOWATTS_PER_NM_RPM!r}",)
-
-    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        return np.abs(drivers.values["torque"] * drivers.values["speed"]) * KILOWATTS_PER_NM_RPM
 
 
 class Coolant(Lagged):

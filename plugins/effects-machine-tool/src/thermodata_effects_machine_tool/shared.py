@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping
 
 import numpy as np
@@ -15,8 +14,10 @@ from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 REFERENCE_SPEED_RPM = 10_000.0
 REFERENCE_FEED_M_MIN = 10.0
 REFERENCE_TURNING_RPM = 10.0  # of a rotary axis
-KILOWATTS_PER_NM_RPM = 2 * math.pi / 60 / 1000
-MOTOR_HEAT = "heat of the motor"  # one heat, read by its temperature or by what drives it: `cause` of these effects
+# `cause` of effects: one heat, read by its temperature or by what drives it
+MOTOR_HEAT = "heat of the motor"
+SCREW_FRICTION = "friction of the feed screw"
+CUTTING_HEAT = "cutting heat"  # also by what the cut warms
 
 
 def tau(
@@ -78,20 +79,6 @@ class Lagged:
         known = {*roles, *(q.name for q in self.params)}
         drives = [*self.driven, *(n.role for n in self.needs)]
         return (f"lag({next(d for d in drives if symbols(tree(d)) <= known)}, tau)",)
-
-
-class MotorLosses(Lagged):
-    """gain * F_tau{(M / rated)^2}, or of the current: the losses of a winding go with its current squared, and its
-    torque with its current. A subclass states `rated` [N m, A] beside the attributes of the contract."""
-
-    rated: float
-
-    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        return power_of(next(iter(drivers.values.values())), self.rated, 2.0)
-
-    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
-        """The same as a formula; see `thermodata.effect.law`."""
-        return (f"lag(({next(iter(roles))} / {self.rated:g}) ** 2, tau)",)
 
 
 class GrowsWithPosition:

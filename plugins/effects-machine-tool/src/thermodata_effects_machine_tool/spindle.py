@@ -10,7 +10,7 @@ from thermodata.effect.lag import lag, lag_along, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import MOTOR_HEAT, REFERENCE_SPEED_RPM, Lagged, MotorLosses, column, exponent, gain, power_of, tau
+from .shared import MOTOR_HEAT, REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_of, tau
 
 BEARING_FRICTION = "bearing friction"  # one heat, read by its temperature or its speed: `cause` of these effects
 
@@ -91,34 +91,6 @@ class SpindleMotor(Lagged):
     needs = (Need("temperature", "temperature", ("{s}spindle.motor",)),)
     params = (tau(40, 10, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
-
-
-class SpindleMotorLosses(MotorLosses):
-    """Losses in the winding of the spindle's motor warm the headstock.
-
-        d = k F_tau{(M / 50 N m)^2}, or k F_tau{(I / 50 A)^2}
-
-    k [um] at 50 N m (50 A), tau [min], torque M [N m] or current I [A] of the motor.
-    Source: [mayr2012] on spindles: copper losses go with the current squared; bounds:
-    docs/model.md#bounds-of-the-effects
-    """
-
-    name = "spindle_motor_losses"
-    cause = MOTOR_HEAT
-    family = "{s}spindle"
-    meaning = "heat of the spindle's motor from its torque or current: k F{M^2}, where no sensor is at the winding"
-    equation = "d = k F_tau{(M / 50 N m)^2}, or k F_tau{(I / 50 A)^2}"
-    telltale = "large at high torque, whatever the speed; told apart by one torque at two speeds"
-    source = (
-        "[mayr2012] on spindles: copper losses go with the current squared; bounds: docs/model.md#bounds-of-the-effects"
-    )
-    needs = (
-        Need("torque", "torque", ("{s}spindle", "{s}spindle.motor"), True),
-        Need("current", "current", ("{s}spindle", "{s}spindle.motor"), True),
-    )
-    params = (tau(40, 10, 120, reach=(1, 360)),)
-    gains = (gain("um", 0.5, 60, "displacement at rest at 50 N m (50 A)"),)
-    rated = 50.0
 
 
 class SpindleGearbox(Lagged):
