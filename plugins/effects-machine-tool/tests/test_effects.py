@@ -59,11 +59,12 @@ def test_torque_and_speed_heat_as_the_power_that_they_are() -> None:
     assert column[-1] == pytest.approx(1.5, rel=1e-3)
 
 
-@pytest.mark.parametrize(("effect", "rated"), [(FeedMotorLosses(), 10.0), (SpindleMotorLosses(), 50.0)])
-@pytest.mark.parametrize("role", ["torque", "current"])
-def test_a_motor_that_takes_half_has_a_quarter_of_the_losses(effect: FeedMotorLosses, rated: float, role: str) -> None:
-    column = effect.basis(_drivers(**{role: np.full(len(T), -rated / 2)}), {"tau": 30.0})[:, 0]
-    assert column[-1] == pytest.approx(0.25, rel=1e-3)
+@pytest.mark.parametrize("effect", [FeedMotorLosses(), SpindleMotorLosses()], ids=lambda e: e.name)
+def test_a_motor_that_takes_half_has_a_quarter_of_the_losses(effect: FeedMotorLosses | SpindleMotorLosses) -> None:
+    assert {need.role for need in effect.needs} == set(effect.rated)
+    for role, rated in effect.rated.items():
+        column = effect.basis(_drivers(**{role: np.full(len(T), -rated / 2)}), {"tau": 30.0})[:, 0]
+        assert column[-1] == pytest.approx(0.25, rel=1e-3)
 
 
 def test_heating_and_cooling_each_have_their_time_constant() -> None:

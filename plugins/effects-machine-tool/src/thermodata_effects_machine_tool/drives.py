@@ -73,25 +73,28 @@ class ScrewPower(Lagged):
 
 
 class MotorLosses(Lagged):
-    """gain * F_tau{(M / rated)^2}, or of the current: the losses of a winding go with its current squared, and its
-    torque with its current. A subclass states `rated` [N m, A] beside the attributes of the contract."""
+    """gain * F_tau{(M / rated)^2}, or of the current or the load: the losses of a winding go with its current squared,
+    and its torque with its current. A subclass states `rated` beside the attributes of the contract: role -> what the
+    gain is told at."""
 
-    rated: float
+    rated: Mapping[str, float]
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
-        return power_of(next(iter(drivers.values.values())), self.rated, 2.0)
+        ((role, values),) = drivers.values.items()
+        return power_of(values, self.rated[role], 2.0)
 
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
         """The same as a formula; see `thermodata.effect.law`."""
-        return (f"lag(({next(iter(roles))} / {self.rated:g}) ** 2, tau)",)
+        (role,) = roles
+        return (f"lag(({role} / {self.rated[role]:g}) ** 2, tau)",)
 
 
 class FeedMotorLosses(MotorLosses):
     """Losses in the winding of the axis motor flow into screw and slide.
 
-        d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}
+        d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}, or k F_tau{(load / 50 %)^2}
 
-    k [um] at 10 N m (10 A), tau [min], torque M [N m] or current I [A] of the motor.
+    k [um] at 10 N m (10 A, 50 %), tau [min], torque M [N m], current I [A] or load [%] of the motor.
     Source: [mayr2012] on feed drives: copper losses go with the current squared; bounds:
     docs/model.md#bounds-of-the-effects
     """
@@ -99,8 +102,8 @@ class FeedMotorLosses(MotorLosses):
     name = "feed_motor_losses"
     cause = MOTOR_HEAT
     family = "feed_{a}"
-    meaning = "heat of the axis motor from its torque or current: k F{M^2}, where no sensor is at the motor"
-    equation = "d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}"
+    meaning = "heat of the axis motor from its torque, current or load: k F{M^2}, where no sensor is at the motor"
+    equation = "d = k F_tau{(M / 10 N m)^2}, or k F_tau{(I / 10 A)^2}, or k F_tau{(load / 50 %)^2}"
     telltale = "twin of feed_screw: the same axis moves; told apart by holding a load at rest"
     source = (
         "[mayr2012] on feed drives: copper losses go with the current squared; bounds: "
@@ -109,10 +112,11 @@ class FeedMotorLosses(MotorLosses):
     needs = (
         Need("torque", "torque", ("axis.{a}", "axis.{a}.motor"), True),
         Need("current", "current", ("axis.{a}", "axis.{a}.motor"), True),
+        Need("load", "load", ("axis.{a}", "axis.{a}.motor"), True),
     )
     params = (tau(60, 30, 180, reach=(1, 360)),)
-    gains = (gain("um", 0.5, 60, "displacement at rest at 10 N m (10 A)"),)
-    rated = 10.0
+    gains = (gain("um", 0.5, 60, "displacement at rest at 10 N m (10 A, 50 %)"),)
+    rated = {"torque": 10.0, "current": 10.0, "load": 50.0}
 
 
 class SpindleMotorLosses(MotorLosses):
@@ -140,4 +144,4 @@ class SpindleMotorLosses(MotorLosses):
     )
     params = (tau(40, 10, 120, reach=(1, 360)),)
     gains = (gain("um", 0.5, 60, "displacement at rest at 50 N m (50 A)"),)
-    rated = 50.0
+    rated = {"torque": 50.0, "current": 50.0}
