@@ -15,6 +15,7 @@ from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
 from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
 from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.why import _of_all, in_spite_of, placeless_limit
+from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
@@ -523,3 +524,22 @@ def test_what_was_dropped_is_alike_as_the_ranking_has_it_that_the_others_stand_i
     dropped = replace(ranked, shape=np.array([0.0, 1.0]))
     assert _as_ranked(dropped, [scored("other"), ranked]) is ranked
     assert _as_ranked(dropped, []) is dropped
+
+
+class TestHowProbableItIsThatNothingLoggedReadsIt:
+    @pytest.mark.parametrize(
+        ("explainable", "likeliest", "probable"),
+        [
+            (0.0, 0.0, 0.79),  # nothing that is logged goes with what is left
+            (1 / 3, 0.1, 0.5),
+            (0.8, 0.1, 0.14),  # some channel takes most of it away
+            (0.0, 0.6, 0.4),  # what is likely to be a logged cause is no other
+        ],
+    )
+    def test_what_candidates_take_away_speaks_against_it(
+        self, explainable: float, likeliest: float, probable: float
+    ) -> None:
+        assert not_logged(explainable, likeliest) == pytest.approx(probable, abs=0.005)
+
+    def test_where_nothing_was_weighed_nobody_knows(self) -> None:
+        assert not_logged(None, 0.0) is None

@@ -19,6 +19,7 @@ from thermodata.report.verdict.refined import named
 from thermodata.report.verdict.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
+from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.schema.words.sentences import listed
 
 from ..answers import candidate
@@ -439,6 +440,10 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     assert "the likeliest that was logged is sun (T), probability 35 %" in text
     assert "nothing logged" not in text
     assert verdict_sentence(found("unknown", [])) == ("something is missing, and nothing logged may be named for it")
+    unread = Unknown(time_constants_h=[], hours_of_day=[], states=[], not_logged=0.574)
+    assert verdict_sentence(found("unknown", [], unknown=unread)).endswith(
+        "nothing logged may be named for it; that no logged channel reads its cause is 57 % probable"
+    )
 
 
 def rung(name: str, *, holds: bool) -> Rung:

@@ -28,6 +28,7 @@ from thermodata.diagnosis.tell.listed import (
 from thermodata.diagnosis.tell.next_test import after_clocks
 from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.diagnosis.tell.stated import Row
+from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, suspect
@@ -51,6 +52,8 @@ def in_contract(
     head = first_cause(shown)
     right = _put_right(case, found)
     most, most_by = explainable([s for s, _ in shown], investigation)
+    candidates = _candidates(shown, head, found, data)
+    unread = not_logged(most, max((c.probability or 0.0 for c in candidates if not c.refinement), default=0.0))
     return Diagnosis(
         model=model_id,
         response=problem.response,
@@ -66,10 +69,10 @@ def in_contract(
         explainable=most,
         explainable_by=most_by,
         weak_spots=investigation.spots,
-        candidates=_candidates(shown, head, found, data),
+        candidates=candidates,
         artefacts=investigation.artefacts,
         put_right=right,
-        unknown=_unknown(shown, head, found) if judgement.verdict == "unknown" else None,
+        unknown=_unknown(shown, head, found, unread) if judgement.verdict == "unknown" else None,
         next_test=after_clocks(
             clocks_in_doubt(investigation.artefacts, right),
             advice(investigation, judgement, found.confirmation, shown[0][0] if shown else None, data, terms),
@@ -96,8 +99,9 @@ def _candidates(shown: Sequence[Row], head: Scored | None, found: Concluded, dat
     )
 
 
-def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded) -> Unknown:
-    """Of heat that nobody logged. head: the first that refines nothing."""
+def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded, unread: float | None) -> Unknown:
+    """Of heat that nobody logged. head: the first that refines nothing. unread: how probable it is that there is
+    such."""
     investigation, problem = found.investigation, found.investigation.problem
     likely = suspect(found.judgement, head, investigation.measure, problem.unit)
     plausible = first(head, problem)
@@ -109,6 +113,7 @@ def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded) -> Unk
         likely,
         plausible or nearest([s for s, _ in shown[:1] if s is head], problem),
         doubt_of_heat(left, investigation.measure, known=known),
+        unread,
     )
 
 

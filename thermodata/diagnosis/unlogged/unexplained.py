@@ -23,10 +23,12 @@ def characterise(
     suspect: Suspect | None = None,
     first: First | None = None,
     doubt: Doubt = "none",
+    unread: float | None = None,
 ) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
     missing heat itself, estimated, unless nobody knows of any. suspect: what is likely it. first: what ranks first,
-    where it is plausible or nearest to it. doubt: whether any heat is missing."""
+    where it is plausible or nearest to it. doubt: whether any heat is missing. unread: how probable it is that no
+    channel reads it (`not_logged`)."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
@@ -34,6 +36,7 @@ def characterise(
         heat=None
         if doubt == "all"
         else _heat(problem, suspect, first, spots[0] if spots and spots[0].after_warm_start else None, doubt),
+        not_logged=unread,
     )
 
 

@@ -45,6 +45,12 @@ def left_over(found: Diagnosis) -> str:
     return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
 
 
+def not_logged(found: Diagnosis) -> str:
+    """'that no logged channel reads its cause is 57 % probable'; '' where nobody knows."""
+    share = found.unknown.not_logged if found.unknown else None
+    return "" if share is None else f"that no logged channel reads its cause is {percent(share)} probable"
+
+
 def most_left(found: Diagnosis) -> str:
     """'; most in t8, up to 4.73 um over 3.0 h as it is fitted': the weak spot of the largest error, where that is far
     more than what all left-out tests leave; else ''."""

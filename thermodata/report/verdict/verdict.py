@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
 from thermodata.report.verdict.could_hide import could_be
-from thermodata.report.verdict.left_over import as_of_nothing, left_over, most_left, offered, on_left_out, stays
+from thermodata.report.verdict.left_over import (
+    as_of_nothing,
+    left_over,
+    most_left,
+    not_logged,
+    offered,
+    on_left_out,
+    stays,
+)
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
@@ -119,7 +127,8 @@ def _verdict(found: Diagnosis) -> str:
     if found.verdict == "effect" and claims:
         return "; ".join(filter(None, [_missing(claims, found), can_be_refined(found)]))
     if found.verdict == "unknown":
-        return "; ".join(filter(None, [_unclaimed(found), told_with_errors(found, ": add {them} and ask again")]))
+        refined_by = told_with_errors(found, ": add {them} and ask again")
+        return "; ".join(filter(None, [_unclaimed(found), not_logged(found), refined_by]))
     # left-out tests have their level free
     far = _far_on_locked(found, found.locked_rmse_um if found.locked_shape_um is None else found.locked_shape_um)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""

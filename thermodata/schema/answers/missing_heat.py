@@ -88,9 +88,12 @@ class Unknown(Result):
     hours_of_day: hours (UTC) at which it stands out
     states: what the machine did in the weak spots
     heat: the missing heat, estimated; null where none is worth its changes
+    not_logged: probability that no channel reads what is missing, 0 to 1; null in an answer of an older version, or
+        where no candidate was weighed
     """
 
     time_constants_h: list[float]
     hours_of_day: list[float]
     states: list[str]
     heat: MissingHeat | None = None
+    not_logged: float | None = None
