@@ -12,13 +12,14 @@ from scipy.signal import lfilter
 from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.virtual.blind import run as running
+from thermodata.virtual.blind.asked import Asked
 from thermodata.virtual.blind.goals import overall
 from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, _lasso, stepwise_bic
 from thermodata.virtual.blind.rules import fingerprint
 from thermodata.virtual.blind.seeds import seeds_of
 from thermodata.virtual.blind.tally import WITHOUT, rows, wilson
 from thermodata.virtual.blind.trial import judge
-from thermodata.virtual.blind.wording import goals, with_a_cause, without
+from thermodata.virtual.blind.wording import goals, text, with_a_cause, without
 from thermodata.virtual.lathe.strata import DEVELOPMENT, SEALED, STRATA
 
 BLANK = {
@@ -246,6 +247,17 @@ def test_the_command_says_which_seeds_it_used_and_refuses_to_mix(
     assert "sealed" in capsys.readouterr().err
     assert main([*command, "--hide", "coolant"]) == 2
     assert main(["benchmark-diagnosis", "--sealed"]) == 2
+
+
+def test_a_run_is_asked_for_and_told_without_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
+    asked = Asked(range(SEALED.start, SEALED.start + 2), ("strong",))
+    found = asked.answered()
+    assert found.seeds == asked.which == f"sealed seeds {SEALED.start} to {SEALED.start + 1}"
+    assert found.to_json()["machine"] == "lathe"
+    assert "probabilities  none stated" in text(found)
+    with pytest.raises(UsageError, match="stong"):
+        Asked(range(2), ("stong",))
 
 
 def test_machines_that_share_their_heat_go_to_one_process() -> None:

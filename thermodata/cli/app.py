@@ -59,7 +59,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "report": "model.reporting",
         "workbench": "model.reporting",
     },
-    "Check": {"simulate": "start.simulating", "benchmark-diagnosis": "start.simulating"},
+    "Check": {"simulate": "start.simulating", "benchmark-diagnosis": "start.benchmarking"},
     "Keep": {
         "plugins": "keep.plugins",
         "schema": "keep.schema",

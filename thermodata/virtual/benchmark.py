@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from time import perf_counter
@@ -65,6 +66,12 @@ def mark(hide: str, family: str, effect: str, claimed_family: str, equivalent: S
     if hide in {name.split(":")[0] for name in equivalent}:
         return "equivalent"
     return "family" if claimed_family == family else "wrong"
+
+
+def marks(trials: Sequence[Mapping[str, Any]]) -> dict[str, int]:
+    """How many machines, how many claims, and how each trial ended."""
+    ends = Counter(str(trial["outcome"]) for trial in trials)
+    return {"machines": len(trials), "claims": sum(trial["found"] is not None for trial in trials), **ends}
 
 
 def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, seconds: float) -> Trial:

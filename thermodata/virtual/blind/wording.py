@@ -4,11 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from thermodata.report.text.table import fields, table
+from thermodata.virtual.blind.counted import Counted
 from thermodata.virtual.blind.rivals import RIVALS
 from thermodata.virtual.blind.tally import Row
 
 SORTS = {"first": "ranked first", "claim": "claims"}
 SHORT = dict(zip(RIVALS, ("raw", "delay", "BIC", "LASSO", "SINDy"), strict=True))
+
+
+def text(found: Counted) -> str:
+    """All of a run: its tables, then how good its probabilities are, its seeds and its rules."""
+    tables = [with_a_cause(found.summary), without(found.summary), goals(found.goals)]
+    shown = [table(rows, [(key, key) for key in rows[0]]) for rows in tables if rows]
+    said = [
+        (
+            f"probabilities, {SORTS[r.of]}",
+            f"{r.statements} stated, Brier {r.brier:.3f} (base rate {r.base_brier:.3f}), "
+            f"calibration error {r.calibration_error:.3f}",
+        )
+        for r in found.stated
+    ] or [("probabilities", "none stated")]
+    return "\n\n".join([*shown, fields([*said, ("seeds", found.seeds), ("rules", found.rules)])])
 
 
 def with_a_cause(found: Sequence[Row]) -> list[Row]:
