@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from thermodata.diagnosis.tell.why import also_of_motor, where_nothing_is_cut
+from thermodata.diagnosis.tell.of_claim import also_of_motor, where_nothing_is_cut
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need
 

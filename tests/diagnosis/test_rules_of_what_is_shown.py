@@ -11,10 +11,12 @@ import pytest
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
-from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
 from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.of_claim import in_spite_of, placeless_limit
 from thermodata.diagnosis.tell.of_locked import said_by_locked
-from thermodata.diagnosis.tell.why import _of_all, in_spite_of, placeless_limit
+from thermodata.diagnosis.tell.row import alike_both_ways
+from thermodata.diagnosis.tell.told import as_ranked
+from thermodata.diagnosis.tell.why import _of_all
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -522,8 +524,8 @@ def test_what_cant_be_told_apart_says_so_of_both() -> None:
 def test_what_was_dropped_is_alike_as_the_ranking_has_it_that_the_others_stand_in() -> None:
     ranked = scored("one")
     dropped = replace(ranked, shape=np.array([0.0, 1.0]))
-    assert _as_ranked(dropped, [scored("other"), ranked]) is ranked
-    assert _as_ranked(dropped, []) is dropped
+    assert as_ranked(dropped, [scored("other"), ranked]) is ranked
+    assert as_ranked(dropped, []) is dropped
 
 
 class TestHowProbableItIsThatNothingLoggedReadsIt:

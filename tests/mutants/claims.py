@@ -40,6 +40,7 @@ BESIDE = {
     "kin.py": ("candidates",),
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
+    "errors_told.py": ("the_answer", "the_locked_tests"),
     "listed.py": ("the_answer", "the_locked_tests"),
     "stated.py": ("the_answer",),
     "on_locked.py": ("the_locked_tests", "investigation"),
@@ -67,7 +68,8 @@ BESIDE = {
     "unread.py": ("unread_parts", "candidates"),
     "windows.py": ("steps",),
     "weak.py": ("what_is_shown",),
-    "why.py": ("the_answer", "the_heat_of_a_motor"),
+    "row.py": ("the_answer", "the_locked_tests"),
+    "of_claim.py": ("the_answer", "the_heat_of_a_motor"),
 }
 BRUTE_FORCE = ("tests/diagnosis/test_evidence_by_brute_force.py",)
 
@@ -132,7 +134,7 @@ MUTANTS = [
     diagnosis("unread.py", "if axis !=", "if False and axis !=", "a rotary axis is given a nut"),
     diagnosis("unread.py", "and quantity == TEMPERATURE}", "}", "a feed at the motor is no longer the screw's"),
     diagnosis("next_test.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
-    diagnosis("listed.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
+    diagnosis("row.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
     diagnosis("of_library.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
     diagnosis(
         "probability.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"
@@ -433,7 +435,7 @@ MUTANTS = [
         'if (place := f"{one}.{MOTOR}"))',
         "a motor that a sensor reads may be it",
     ),
-    diagnosis("why.py", "if acts and test.kind in _NOTHING_IS_CUT)", "if acts)", "the cut acts where it is cut"),
+    diagnosis("of_claim.py", "if acts and test.kind in _NOTHING_IS_CUT)", "if acts)", "the cut acts where it is cut"),
     diagnosis("opened.py", "(_key(j) in unsound and silent)", "False", "locked tests that rest outweigh a rule"),
     diagnosis("judge.py", "if may_be_confirmed(j.scored)", "if True", "the lock is opened for everything"),
     diagnosis("judge.py", "alone = len(broken) == 1 and", "alone = broken and", "what breaks two rules is asked"),
@@ -468,7 +470,7 @@ MUTANTS = [
         "warm_at_rest.py", "return not turning and bool(resting)", "return False", "a table that never turns rubs"
     ),
     diagnosis(
-        "listed.py", "probability(s) if told_of else None", "probability(s)", "a share that nobody measured is told"
+        "row.py", "probability(s) if told.stated else None", "probability(s)", "a share that nobody measured is told"
     ),
     diagnosis(
         "listed.py",
@@ -487,16 +489,19 @@ MUTANTS = [
         "what a claim explains is told",
     ),
     diagnosis(
-        "listed.py", "if ranked and (judged or", "if False and (judged or", "the model's own error is another twice"
+        "errors_told.py",
+        "if ranked and (judged or",
+        "if False and (judged or",
+        "the model's own error is another twice",
     ),
     diagnosis(
-        "listed.py",
+        "errors_told.py",
         "all(j.scored.columns is s.columns for j in judged)",
         "any(j.scored.columns is s.columns for j in judged)",
         "what stands beside a claim is forgotten",
     ),
     diagnosis(
-        "listed.py",
+        "errors_told.py",
         "all(j.scored.columns is s.columns for j in judged)",
         "len(judged) == 1",
         "what was dropped falls from the wrong error",

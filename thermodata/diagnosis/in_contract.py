@@ -17,17 +17,13 @@ from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
 from thermodata.diagnosis.tell.as_stored import as_fitted
-from thermodata.diagnosis.tell.listed import (
-    alike_both_ways,
-    candidate,
-    explainable,
-    first_cause,
-    listed,
-    with_probability,
-)
+from thermodata.diagnosis.tell.listed import explainable, first_cause, listed, with_probability
 from thermodata.diagnosis.tell.next_test import after_clocks
+from thermodata.diagnosis.tell.outcome import Outcome
+from thermodata.diagnosis.tell.row import alike_both_ways, candidate
 from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.diagnosis.tell.stated import Row
+from thermodata.diagnosis.tell.told import told_of
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -47,12 +43,13 @@ def in_contract(
     for."""
     investigation, judgement, data = found.investigation, found.judgement, case.data
     problem, alone = investigation.problem, investigation.selection
+    outcome = Outcome(investigation, judgement, found.confirmation)
     terms = [t.id for t in case.sound.fitted.responses[case.index].terms]
     shown = listed(investigation, judgement)
     head = first_cause(shown)
     right = _put_right(case, found)
     most, most_by = explainable([s for s, _ in shown], investigation)
-    candidates = _candidates(shown, head, found, data)
+    candidates = _candidates(shown, head, outcome, data)
     unread = not_logged(most, max((c.probability or 0.0 for c in candidates if not c.refinement), default=0.0))
     return Diagnosis(
         model=model_id,
@@ -75,7 +72,7 @@ def in_contract(
         unknown=_unknown(shown, head, found, unread) if judgement.verdict == "unknown" else None,
         next_test=after_clocks(
             clocks_in_doubt(investigation.artefacts, right),
-            advice(investigation, judgement, found.confirmation, shown[0][0] if shown else None, data, terms),
+            advice(outcome, shown[0][0] if shown else None, data, terms),
         ),
         response_um=investigation.measure.spread,
         limits=[] if judgement.claims else [_limit(one, terms, investigation) for one in investigation.limits],
@@ -87,14 +84,13 @@ def in_contract(
     )
 
 
-def _candidates(shown: Sequence[Row], head: Scored | None, found: Concluded, data: Dataset) -> list[Candidate]:
+def _candidates(shown: Sequence[Row], head: Scored | None, outcome: Outcome, data: Dataset) -> list[Candidate]:
     """head: the first that refines nothing."""
-    investigation, judgement = found.investigation, found.judgement
-    told_with = with_probability(shown, investigation, judgement)
+    stated = with_probability(shown, outcome.investigation, outcome.judgement)
     return alike_both_ways(
         [
-            candidate(i + 1, s, member, s is head, told_with, investigation, judgement, found.confirmation, data)
-            for i, (s, member) in enumerate(shown)
+            candidate(rank, told_of(row, stated, outcome), outcome, data, first=row[0] is head)
+            for rank, row in enumerate(shown, 1)
         ]
     )
 

@@ -8,24 +8,18 @@ import numpy as np
 
 from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import rules
-from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.tell.worked import worked
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.verdict.judge import Judged, equivalents
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.view.grid.dataset import Dataset
 
 
-def advice(
-    investigation: Investigation,
-    judgement: Judgement,
-    confirmation: Confirmation | None,
-    first: Scored | None,
-    data: Dataset,
-    terms: Sequence[str],
-) -> str | None:
+def advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequence[str]) -> str | None:
     """first: the head of the list. terms: ids of the model's effects."""
+    investigation, judgement, confirmation = outcome.investigation, outcome.judgement, outcome.confirmation
     claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
     if claims:
         claim = judgement.claims[0]

@@ -64,3 +64,8 @@ def reads_as(s: Scored, among: Sequence[Scored]) -> Scored | None:
     own = set(s.candidate.channels)
     named = (t for t in among if t.candidate.family not in UNNAMED)
     return next((t for t in named if set(t.candidate.channels) == own), None)
+
+
+def among(member: Judged | None, some: Sequence[Judged]) -> bool:
+    """Whether a member is one of some; what was not selected is none."""
+    return any(member is one for one in some)

@@ -1,0 +1,79 @@
+"""What is to be known of a claim beside its figures: what it breaks and outweighs, what else the heat may be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
+from thermodata.diagnosis.claims.refinement import SURE
+from thermodata.diagnosis.claims.rules import rules
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.words.sentences import in_percent, listed
+from thermodata.view.grid.dataset import TestData
+
+# what a claim may break where it is evident, by the name of the rule
+_OUTWEIGHED = {
+    "fall": "that the error hardly falls",
+    "gain": "that its gain differs",
+    "others": "that no other test foretells it",
+    "worth": "that it explains so little",
+}
+_CUTTING = "cutting"
+_NOTHING_IS_CUT = ("spindle", "spectrum", "linear_axis", "rotary_axis", "etve")
+_SHOWN = 3  # tests
+_DRIVES_A_MOTOR = ("power", "load", "current", "torque")
+
+
+def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
+    """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
+    lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
+    said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
+    evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
+    return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
+
+
+def placeless_limit(s: Scored) -> str:
+    """Of a claim that is less probable than one of a declared place must be: by which limit it stands; else ''."""
+    if probability(s) >= CLAIMED or not s.candidate.placeless:
+        return ""
+    return (
+        f"; no temperature has a declared place, so it names a channel and no part of the machine, and a claim asks "
+        f"{in_percent(limit_of(s))} in place of {in_percent(CLAIMED)}: declare 'at' of the channels to ask for more"
+    )
+
+
+def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
+    """Of a cause by its heat of cutting: tests in which it acts, though by their kind nothing is cut in them; else
+    ''."""
+    if s.candidate.family != _CUTTING:
+        return ""
+    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
+    names = list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
+    if not names:
+        return ""
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return (
+        f"; it acts in {', '.join(names[:_SHOWN])}{more}, where nothing is cut: what heats there is what "
+        "the spindle itself loses, in its motor first"
+    )
+
+
+def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
+    """What drives a motor heats it before it cuts: said of a power that is not surely a cause of its own, beside a
+    sharper claim of the motor's temperature; else ''."""
+    if probability(s) >= SURE or not any(n.quantity in _DRIVES_A_MOTOR for n in s.candidate.effect.needs):
+        return ""
+    motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(s)]
+    if not motors:
+        return ""
+    heats = "heats" if len(s.candidate.channels) == 1 else "heat"
+    return (
+        f"; {listed(s.candidate.channels)} {heats} the motor too, which is claimed as {motors[0].candidate.id}: it "
+        "may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
+        "first, and ask again"
+    )
+
+
+def _reads_motor(s: Scored) -> bool:
+    return any(p.endswith("spindle.motor") for n in s.candidate.effect.needs for p in n.places)

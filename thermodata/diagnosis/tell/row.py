@@ -1,0 +1,96 @@
+"""A candidate as the published answer has it: its figures, its evidence, and why it is claimed or not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.unread import reads
+from thermodata.diagnosis.claims.probability import elsewhere, probability
+from thermodata.diagnosis.tell import ladder
+from thermodata.diagnosis.tell.advised import as_added
+from thermodata.diagnosis.tell.errors_told import rmse
+from thermodata.diagnosis.tell.outcome import Outcome
+from thermodata.diagnosis.tell.stated import among
+from thermodata.diagnosis.tell.told import Told
+from thermodata.diagnosis.tell.why import why
+from thermodata.diagnosis.weigh.null import p_value
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.view.grid.dataset import Dataset
+
+
+def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: bool) -> Candidate:
+    """first: whether it is the first of the list that refines nothing."""
+    s, one, errors, held = told.listed, told.one, told.errors, told.held
+    problem, measure, judgement = outcome.investigation.problem, outcome.measure, outcome.judgement
+    claimed = among(told.member, judgement.claims)
+    heads = first or claimed or among(told.member, judgement.refused)
+    refining = among(told.member, judgement.refinements)
+    shape = held.on(held.asked) if held else as_added(s) if refining else s.looked.least if s.looked else None
+    named = [*told.twins, *(j.scored.candidate for j in judgement.claims)]
+    return Candidate(
+        rank=rank,
+        id=s.candidate.id,
+        effect=s.candidate.effect.name,
+        family=s.candidate.family,
+        drivers=list(s.candidate.channels),
+        gain_by=s.candidate.gain_by,
+        phases=list(s.candidate.phases),
+        claimed=claimed,
+        refinement=refining,
+        # measured for what is sound; nothing is known of the share of the others
+        probability=probability(s) if told.stated else None,
+        # chance was asked beside effects that may act otherwise
+        p_value=None if one.as_modelled else p_value(one.evidence, measure.chance),
+        rmse_um_before=rmse(errors.sse_before, errors),
+        rmse_um_after=rmse(errors.sse_after, errors),
+        fit_before=_fit(errors.sse_before, errors, measure.spread),
+        fit_after=_fit(errors.sse_after, errors, measure.spread),
+        locked_rmse_um_before=held.before if held else None,
+        locked_rmse_um_after=held.after if held else None,
+        locked_shape_um_before=shape.before if shape else None,
+        locked_shape_um_after=shape.after if shape else None,
+        locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
+        as_modelled=s.as_modelled,
+        parameters=held.parameters.get(s.candidate.id, {}) if held else {},
+        beside=[] if told.of_model else list(told.others),
+        equivalent=[t.id for t in told.twins],
+        unread=_unread(s, named, data) if heads or told.stated else [],
+        also_on=dict(s.also_on),
+        why=why(told, outcome),
+        evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,
+        rungs=ladder.rungs(one, measure, problem.unit, sure=s if told.stated else one),
+        left_out=ladder.left_out(errors, problem),
+        courses=ladder.courses(one, problem) if heads or refining else [],
+    )
+
+
+def alike_both_ways(found: Sequence[Candidate]) -> list[Candidate]:
+    """Of each pair the one that stands first says whether the two can be told apart."""
+    twins = {one.id: list(one.equivalent) for one in found}
+    for i, one in enumerate(found):
+        for other in found[i + 1 :]:
+            if other.id in twins[one.id] and one.id not in twins[other.id]:
+                twins[other.id].append(one.id)
+            elif other.id not in twins[one.id] and one.id in twins[other.id]:
+                twins[other.id].remove(one.id)
+    return [one.model_copy(update={"equivalent": twins[one.id]}) for one in found]
+
+
+def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[str]:
+    """Places of other parts that it may be; not those that a temperature reads which the answer names beside it."""
+    others = {n for one in named for n in one.channels if n not in s.candidate.channels}
+    beside = {n: channel for n, channel in data.channels.items() if n in others}
+    return [place for place in elsewhere(s) if not reads(beside, place)]
+
+
+def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
+    return None if tests is None else len(tests)
+
+
+def _fit(sse: np.ndarray, s: Scored, spread: float) -> float | None:
+    error = rmse(sse, s)
+    return None if error is None or spread <= 0 else (1 - error / spread) * 100
