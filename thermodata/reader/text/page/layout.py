@@ -21,6 +21,7 @@ from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
 from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.head import Head
 from thermodata.reader.text.page.labelled_head import labelled_head
 from thermodata.reader.text.page.line_up import Fit, line_up, units_by_keyword
 from thermodata.reader.text.page.lines_between import lines_between
@@ -105,20 +106,21 @@ def find_layout(
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
     lines = [texts_of(r) for r in above]
     above, settings = labelled_head(above, below, width)
+    head = Head(above, below, width, row_of_units, skip, between, where)
     lacking = None
     if between is not None and "header_rows" not in said:
         times = said.get("time") or {}
         told = not isinstance(times, Mapping) or times.get("column") is not None
-        lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where, told)
+        lacking = refuse_misfit(head, told=told)
     if between is not None and "names" not in said:
-        refuse_units_misfit(above, width, row_of_units, skip, between, where)
-    header = _header(above, below, said, width, row_of_units, where)
+        refuse_units_misfit(head)
+    header = _header(head, said)
     data = _whole_rows(below, width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = list[str]()
     if "header_rows" not in said:
-        lost = lines_between(above, width, skip, header.names, header.units, where, between is not None)
+        lost = lines_between(head, header.names, header.units)
     seen = FirstRows(header.names, header.units, data, where)
     groups, notes = _times(said.get("time"), seen, lines)
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
@@ -152,24 +154,18 @@ def _first_row(rows: Sequence[Sequence[Cell]], said: Mapping[str, Any], skip: in
     return first + skip
 
 
-def _header(
-    above: Sequence[Sequence[Cell]],
-    below: Sequence[Sequence[Cell]],
-    said: Mapping[str, Any],
-    width: int,
-    row_of_units: int | None,
-    where: str,
-) -> _Header:
-    """above: as `line_up` left them; below: rows of data. Declared names have the last word."""
-    heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
+def _header(head: Head, said: Mapping[str, Any]) -> _Header:
+    """Declared names have the last word."""
+    above, below, width = head.above, head.below, head.width
+    heads, units, over = names_and_units([r[:width] for r in above], width, head.row_of_units)
     worded = names_before_values(heads, below) if "names" not in said and not any(units) else {}
-    heads = [worded.get(i, head) for i, head in enumerate(heads)]
+    heads = [worded.get(i, name) for i, name in enumerate(heads)]
     units = [split_unit(worded[i])[1] if i in worded else unit for i, unit in enumerate(units)]
     unused = None
     if "names" in said and list(said["names"]) != heads:
-        unused = unused_note(heads, below, int(said.get("skip_rows", 0)) + len(above), said, where)
+        unused = unused_note(heads, below, head.ends, said, head.where)
         if unused is None:
-            heads = declared_names(said["names"], width, where)
+            heads = declared_names(said["names"], width, head.where)
             units = [split_unit(name)[1] for name in heads]
     described, listed = descriptions([texts_of(r) for r in above], heads)
     units = [unit or other for unit, other in zip(units, listed, strict=True)]

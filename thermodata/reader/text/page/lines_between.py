@@ -7,9 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.names.header_rows import rows_between, texts_of
+from thermodata.reader.text.page.head import Head
 from thermodata.schema.units.scale import with_power_of_ten
 
 _FACTOR = re.compile(
@@ -19,30 +19,22 @@ _FACTOR = re.compile(
 _SHOWN, _MOST = 60, 3
 
 
-def lines_between(
-    rows: Sequence[Sequence[Cell]],
-    width: int,
-    skip: int,
-    names: Sequence[str],
-    units: Sequence[str | None],
-    where: str,
-    asked: bool,
-) -> list[str]:
-    """A note for such lines. rows: before the data; skip: lines before them; names, units: of the columns;
-    asked: False where the question is left for later (whose file it is does not hang on that).
+def lines_between(head: Head, names: Sequence[str], units: Sequence[str | None]) -> list[str]:
+    """A note for such lines. names, units: of the columns. Nothing is asked where no separator is
+    known (whose file it is does not hang on that).
 
     QuestionError where one says a factor other than 1, or an offset other than 0.
     """
-    odd = rows_between(rows, width)
-    texts = {i: texts_of(rows[i]) for i in odd}
+    odd = rows_between(head.above, head.width)
+    texts = {i: texts_of(head.above[i]) for i in odd}
     scaled = {i: cells for i, cells in texts.items() if _scales(cells)}
-    if scaled and asked:
-        raise _question(scaled, len(rows), skip, names, units, where)
+    if scaled and head.between is not None:
+        raise _question(scaled, head, names, units)
     if not odd:
         return []
     first = odd[0]
     quoted = " ".join(filter(None, texts[first]))[:_SHOWN]
-    return [f"line {first + skip + 1} between header and data is not read ({len(odd)} such): '{quoted}'"]
+    return [f"line {head.line(first)} between header and data is not read ({len(odd)} such): '{quoted}'"]
 
 
 def _numbers(cells: Sequence[str]) -> list[float | None]:
@@ -58,14 +50,10 @@ def _scales(cells: Sequence[str]) -> bool:
 
 
 def _question(
-    scaled: Mapping[int, Sequence[str]],
-    header: int,
-    skip: int,
-    names: Sequence[str],
-    units: Sequence[str | None],
-    where: str,
+    scaled: Mapping[int, Sequence[str]], head: Head, names: Sequence[str], units: Sequence[str | None]
 ) -> QuestionError:
-    lines = ", ".join(f"line {i + skip + 1} '{' '.join(filter(None, row))[:_SHOWN]}'" for i, row in scaled.items())
+    header = len(head.above)
+    lines = ", ".join(f"line {head.line(i)} '{' '.join(filter(None, row))[:_SHOWN]}'" for i, row in scaled.items())
     proposed, factors = list[str](), False
     for row in scaled.values():
         match = _FACTOR.fullmatch(row[0].strip())
@@ -84,7 +72,7 @@ def _question(
     said = {"header_rows": header}
     return QuestionError(
         "factors or offsets between header and data, which values may have or not",
-        where=where,
+        where=head.where,
         expected="values as they count, or factors that are declared",
         got=lines,
         hint=f"declare table: {{header_rows: {header}}} to read the values as they stand; where they are still to be "

@@ -19,6 +19,7 @@ from thermodata.reader.text.clocks.names_of_time import (
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import says_time
+from thermodata.reader.text.page.head import Head
 from thermodata.reader.text.times.time_cells import belongs_to_time
 
 _DAY_WORD = re.compile(
@@ -32,62 +33,62 @@ _CLOCK_WORD = re.compile(
 _WHOLE, _THREE = re.compile(r":\d\d$"), re.compile(r"\d{3}")
 
 
-def refuse_misfit(
-    above: Sequence[Sequence[Cell]],
-    rows: Sequence[Sequence[Cell]],
-    width: int,
-    units_row: int | None,
-    skip: int,
-    delimiter: str,
-    where: str,
-    told: bool,
-) -> str | None:
+def refuse_misfit(head: Head, *, told: bool) -> str | None:
     """FormatError where the names are fewer or more than the columns, or as many while the time takes columns more than
     names; but a note where the last name alone is too many and the others stand over their columns by the cells of the
-    time. above, rows: as `line_up` left them; skip: lines before them; delimiter: as messages show it; told: whether
-    the columns of the time are declared."""
-    place = place_of_names(above, width, units_row)
+    time. told: whether the columns of the time are declared."""
+    rows, width = head.below, head.width
+    place = place_of_names(head.above, width, head.row_of_units)
     if place is None or not rows:
         return None
-    names = texts_of(above[place])
+    names = texts_of(head.above[place])
     said, columns = filled(names), width - empty_at_the_end(rows, width)
     if not told and said == columns and (own := _shifted(names, rows, columns)):
-        raise FormatError(
-            f"the time takes more cells in the rows than names in the header: '{names[own[-1]]}' stands over one",
-            where=f"{where} line {skip + place + 1}, rows from line {skip + len(above) + 1}",
-            expected=f"a name for each column between {delimiter}, at the time too",
-            got=f"'{' '.join(texts_of(rows[0]))[:60]}' below '{' '.join(names)[:60]}'",
-            hint=f"declare table: {{time: {{column: {[i + 1 for i in own]}}}}} if that names a part of the time; else "
-            f"table: {{skip_rows: {skip + len(above)}, header_rows: 0, names: [...]}} with a name for each column",
-        )
+        raise _a_cell_more(head, place, names, own)
     if len(names) == width or said in (width, columns) or 2 * said <= width:
         return None
     if said > width and any(len(r) >= said for r in rows[:1]):
         return None  # groups of columns that ended
-    if delimiter != "blanks" and said - 1 == width == columns and _stand_over_the_time(names, rows, columns):
+    if head.between != "blanks" and said - 1 == width == columns and _stand_over_the_time(names, rows, columns):
         return (
             f"the last name of the header has no column, for rows have {columns} cells: '{names[said - 1]}'; "
             "the others are taken to stand over theirs"
         )
     if said == columns - 1 and (behind := _milliseconds(names, rows, columns)):
-        raise _parted_stamps(names[:said], behind, skip + len(above), f"{where} line {skip + place + 1}", rows)
-    few = said < width
-    first = skip + len(above) + 1
-    at = skip + place + 1
+        raise _parted_stamps(head, place, names[:said], behind)
+    raise _other_cells(head, place, names, columns)
+
+
+def _a_cell_more(head: Head, place: int, names: Sequence[str], own: Sequence[int]) -> FormatError:
+    """place: of the names, in `above`. own: the columns of the time, to the first under a name of something else."""
+    return FormatError(
+        f"the time takes more cells in the rows than names in the header: '{names[own[-1]]}' stands over one",
+        where=f"{head.where} line {head.line(place)}, rows from line {head.ends + 1}",
+        expected=f"a name for each column between {head.between}, at the time too",
+        got=f"'{' '.join(texts_of(head.below[0]))[:60]}' below '{' '.join(names)[:60]}'",
+        hint=f"declare table: {{time: {{column: {[i + 1 for i in own]}}}}} if that names a part of the time; else "
+        f"{head.named_anew}",
+    )
+
+
+def _other_cells(head: Head, place: int, names: Sequence[str], columns: int) -> FormatError:
+    """place: of the names, in `above`. columns: those that hold anything."""
+    said, between = filled(names), head.between
+    few = said < head.width
     last = "columns have no name" if few else "names have no column"
-    beside = names_of_time(names) is not None and not _stand_over_the_time(names, rows, columns)
-    lacking = "" if beside else f"declare table: {{header_rows: {at}}} if only the last {last}; else "
-    blanks = "write names without blanks, or " if delimiter == "blanks" else ""
+    beside = names_of_time(names) is not None and not _stand_over_the_time(names, head.below, columns)
+    lacking = "" if beside else f"declare table: {{header_rows: {head.line(place)}}} if only the last {last}; else "
+    blanks = "write names without blanks, or " if between == "blanks" else ""
     commas = f"has {columns - said} column{'s' * (columns - said != 1)} a decimal comma? then export with ';' between "
-    commas = f"{commas}cells; else " if few and delimiter == "','" else ""
-    raise FormatError(
+    commas = f"{commas}cells; else " if few and between == "','" else ""
+    return FormatError(
         f"the header has {'fewer' if few else 'more'} cells than the rows below it",
-        where=f"{where} line {at}, rows from line {first}",
-        expected=f"as many cells between {delimiter} in both",
-        got=f"{said} in the header, {columns} in the rows: '{' '.join(texts_of(rows[0]))[:60]}' below "
+        where=f"{head.where} line {head.line(place)}, rows from line {head.ends + 1}",
+        expected=f"as many cells between {between} in both",
+        got=f"{said} in the header, {columns} in the rows: '{' '.join(texts_of(head.below[0]))[:60]}' below "
         f"'{' '.join(names)[:60]}'",
-        hint=f"{commas}{blanks}put cells that hold {delimiter} in quotes, or export with another delimiter; {lacking}"
-        f"declare table: {{skip_rows: {first - 1}, header_rows: 0, names: [...]}} with a name for each column",
+        hint=f"{commas}{blanks}put cells that hold {between} in quotes, or export with another delimiter; {lacking}"
+        f"declare {head.named_anew}",
     )
 
 
@@ -105,19 +106,18 @@ def _milliseconds(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns:
     return place if good and sum(map(bool, good)) >= ENOUGH * len(good) else 0
 
 
-def _parted_stamps(
-    names: Sequence[str], place: int, above: int, where: str, rows: Sequence[Sequence[Cell]]
-) -> QuestionError:
-    """Asks whether such a column holds milliseconds; meanwhile it does."""
-    all_names = [*names[:place], "ms", *names[place:]]
-    said = {"skip_rows": above, "header_rows": 0, "names": all_names}
-    shown = ",".join(texts_of(rows[0])[place - 1 : place + 1])
+def _parted_stamps(head: Head, place: int, names: Sequence[str], behind: int) -> QuestionError:
+    """Asks whether such a column holds milliseconds; meanwhile it does. place: of the names, in `above`; behind: of the
+    column."""
+    all_names = [*names[:behind], "ms", *names[behind:]]
+    said = {"skip_rows": head.ends, "header_rows": 0, "names": all_names}
+    shown = ",".join(texts_of(head.below[0])[behind - 1 : behind + 1])
     return QuestionError(
         "times whose milliseconds stand in a cell of their own, which the header does not name",
-        where=where,
+        where=f"{head.where} line {head.line(place)}",
         expected="a name for each column",
         got=shown,
-        hint=f"declare table: {{skip_rows: {above}, header_rows: 0, names: [{', '.join(all_names)}]}}",
+        hint=f"declare table: {{skip_rows: {head.ends}, header_rows: 0, names: [{', '.join(all_names)}]}}",
         ask=f"names? the header names one column fewer than there are: is '{shown}' a time with its milliseconds?",
         declare=said,
         meanwhile=said,

@@ -2,35 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.clocks.names_of_time import filled
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import is_time_header, says_time
 from thermodata.reader.text.names.units_row import mostly_units
+from thermodata.reader.text.page.head import Head
 from thermodata.reader.times.time_units import known_unit
 
 
-def refuse_units_misfit(
-    above: Sequence[Sequence[Cell]], width: int, units_row: int | None, skip: int, delimiter: str, where: str
-) -> None:
+def refuse_units_misfit(head: Head) -> None:
     """FormatError where a row of units has more cells than the table has columns, or fewer than there are names while a
-    unit that is none of time stands below the word for the time: the row has lost a cell in front of that one.
-
-    above: rows before the data, as `line_up` left them; width: columns; units_row: that of units where it is declared,
-    from 0; skip: lines before them; delimiter: as messages show it.
-    """
-    place = place_of_names(above, width, units_row)
+    unit that is none of time stands below the word for the time: the row has lost a cell in front of that one."""
+    width = head.width
+    place = place_of_names(head.above, width, head.row_of_units)
     if place is None:
         return
-    names = texts_of(above[place])[:width]
+    names = texts_of(head.above[place])[:width]
     times = [i for i, name in enumerate(names) if says_time(name) or is_time_header(name)]
-    for at, row in enumerate(above):
+    for at, row in enumerate(head.above):
         units = texts_of(row)
-        if at != units_row and (at <= place or not mostly_units(units)):
+        if at != head.row_of_units and (at <= place or not mostly_units(units)):
             continue
         more = filled(units) > width >= filled(names)
         astray = next((u for i in times if i < len(units) and _is_of_no_time(u := units[i])), None)
@@ -40,13 +33,12 @@ def refuse_units_misfit(
         few = f", and '{astray}' below '{names[times[0]]}' is no unit of time" if fewer else ""
         raise FormatError(
             f"the row of units has {'more' if more else 'fewer'} cells than the row of names: which unit is whose?",
-            where=f"{where} line {skip + at + 1}, names in line {skip + place + 1}",
-            expected=f"a cell between {delimiter} for each name, an empty one where there is no unit",
+            where=f"{head.where} line {head.line(at)}, names in line {head.line(place)}",
+            expected=f"a cell between {head.between} for each name, an empty one where there is no unit",
             got=f"{filled(units)} cells below {filled(names)} names{few}: '{' '.join(units)[:60]}' below "
             f"'{' '.join(names)[:60]}'",
-            hint="put the missing cell into the row of units, or take the odd one out; or declare table: {skip_rows: "
-            f"{skip + len(above)}, header_rows: 0, names: [...]}} with a name for each column, and units in the "
-            "channels",
+            hint="put the missing cell into the row of units, or take the odd one out; or declare "
+            f"{head.named_anew}, and units in the channels",
         )
 
 
