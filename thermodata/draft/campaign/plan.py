@@ -2,47 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.draft.campaign.asked_once import asked_once
 from thermodata.draft.campaign.by_hand import asked_whether_held
 from thermodata.draft.campaign.channels import channels_of
+from thermodata.draft.campaign.drafted_sources import Beside, drafted_sources
 from thermodata.draft.campaign.drafted_tests import drafted_tests
 from thermodata.draft.campaign.files_apart import files_apart
+from thermodata.draft.campaign.hardly_looked_at import hardly_looked_at
 from thermodata.draft.campaign.jump_sources import with_their_sources
 from thermodata.draft.campaign.jumps_used import idle_jumps, jumps_of
-from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource
+from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
-from thermodata.draft.files.letters_of_files import common
-from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.notes import described_in
-from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
-from thermodata.draft.folder.packed_pieces import packed_pieces
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.folder.table import TestTable, closed_workbooks, find_table
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
-from thermodata.draft.times.clocks import (
-    Alignment,
-    Named,
-    alignments,
-    mended_clocks,
-    repeats_question,
-    set_back_question,
-    start_question,
-)
-from thermodata.draft.times.hints import hinted
+from thermodata.draft.times.clocks import Named, alignments, mended_clocks
 from thermodata.draft.times.named_days import over_midnight
-from thermodata.draft.times.zones import zone_as_before, zone_question
 from thermodata.draft.times.zones_before import ZonesBefore
-from thermodata.schema.words.sentences import counted
 
 NO_ZONES = ZonesBefore()
 
@@ -58,7 +45,9 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     table = find_table(folder, found.others, list(dict.fromkeys(t for g in groups for t in g.tests)))
     of_groups = _channels(groups, of_probes)
     keyed = of_groups.keyed
-    sources = asked_once(_sources(folder, groups, keyed, table, found, before), groups)
+    aligned = {a.source: a for a in alignments(groups, keyed)}
+    beside = Beside(folder, groups, aligned, table, found.ignored, before)
+    sources = asked_once(drafted_sources(beside), groups)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)
     left_out = (*_but_of(table, found.ignored), *sorted_out.unread, *idle)
@@ -81,7 +70,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
             *clocks_said(folder, described_in(folder, sorted_out.texts)),
             *of_groups.notes,
             *closed_workbooks(found.others),
-            *_hardly_looked_at(found.logs),
+            *hardly_looked_at(found.logs),
         ),
         _but_of(table, found.failed),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
@@ -119,58 +108,6 @@ def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest
     return found
 
 
-def _sources(
-    folder: Path,
-    groups: Sequence[Group],
-    keyed: Mapping[str, Named],
-    table: TestTable | None,
-    found: Scan,
-    before: ZonesBefore,
-) -> tuple[DraftSource, ...]:
-    aligned = {a.source: a for a in alignments(groups, keyed)}
-    zones = {g.source: zone_as_before(g, groups, before.of(g)) for g in groups}
-
-    def told(group: Group) -> tuple[str, ...]:
-        return (*group.told, *(["timezone as in the campaign file before"] if zones[group.source] else []))
-
-    return tuple(
-        DraftSource(
-            g.source,
-            g.reader,
-            g.template,
-            tuple(
-                filter(None, _questions(folder, g, groups, aligned, table, found, None if zones[g.source] else before))
-            ),
-            g.table,
-            aligned.get(g.source),
-            common(f.letters for f in (*g.files, *g.calibrations)),
-            told(g),
-            zones[g.source],
-        )
-        for g in groups
-    )
-
-
-def _hardly_looked_at(logs: Sequence[RawFile]) -> Iterator[str]:
-    """What is told of files for which there was no time, or not enough."""
-    if like := [f for f in logs if f.like]:
-        yield (
-            f"{counted(len(like), 'file', 'was', 'were')} not opened (the folder's time was up): taken to be like "
-            f"others of their name, e.g. {like[0].path} like {like[0].like}"
-        )
-    if unseen := [f for f in logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]:
-        yield (
-            f"{counted(len(unseen), 'file', 'was', 'were')} opened, and no values looked at (the folder's time was "
-            f"up): their tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
-        )
-    if hurried := [f for f in logs if f.sample.hurried]:
-        yield (
-            f"{counted(len(hurried), 'file', 'was', 'were')} looked at in the first rows only (the time for each was "
-            f"up): what their tests did later is not in this draft, e.g. {hurried[0].path} after "
-            f"{counted(hurried[0].sample.rows, 'row')}; check these lines"
-        )
-
-
 def _keyed(
     group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]
 ) -> dict[tuple[str, str], tuple[str, str | None, str]]:
@@ -182,33 +119,3 @@ def _keyed(
         for s in one.spellings
         if one.written in plain
     }
-
-
-def _questions(
-    folder: Path,
-    group: Group,
-    groups: Sequence[Group],
-    aligned: Mapping[str, Alignment],
-    table: TestTable | None,
-    found: Scan,
-    before: ZonesBefore | None,
-) -> Iterator[str | None]:
-    """What is asked of a source. before: the zones that were declared; None where its own is known."""
-    yield from (hinted(a, group, groups) for a in group.asks)
-    if before is not None and (asked := zone_question(group, groups, folder)):
-        yield asked + before.said()
-    yield from _of_clocks(group, groups, aligned)
-    yield from group.questions
-    yield from one_or_many(group, groups, table.rows if table else ())
-    yield from packed_pieces(group, found.ignored)
-
-
-def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
-    """Questions about when a source began, unless its clock is had from another's, times that repeat
-    and a clock that was set."""
-    known = group.source in aligned or any(a.there == group.source for a in aligned.values())
-    return (
-        None if known else start_question(group, groups),
-        repeats_question(group),
-        set_back_question(group),
-    )

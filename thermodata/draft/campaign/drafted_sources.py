@@ -1,0 +1,73 @@
+"""The sources as a draft has them: files, clock, zone and encoding of each, and what is asked of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from thermodata.draft.campaign.parts import DraftSource
+from thermodata.draft.files.letters_of_files import common
+from thermodata.draft.folder.one_or_many import one_or_many
+from thermodata.draft.folder.packed_pieces import packed_pieces
+from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.table import TestTable
+from thermodata.draft.times.clocks import Alignment, repeats_question, set_back_question, start_question
+from thermodata.draft.times.hints import hinted
+from thermodata.draft.times.zones import zone_as_before, zone_question
+from thermodata.draft.times.zones_before import ZonesBefore
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """What stands beside a source. groups: all of the folder, its own among them. aligned: source -> its clock against
+    another's. ignored: (path, reason) of files that are left out. before: the zones of local times that the campaign
+    file before declared."""
+
+    folder: Path
+    groups: Sequence[Group]
+    aligned: Mapping[str, Alignment]
+    table: TestTable | None
+    ignored: Sequence[tuple[str, str]]
+    before: ZonesBefore
+
+
+def drafted_sources(beside: Beside) -> tuple[DraftSource, ...]:
+    """One a group."""
+    return tuple(_source(group, beside) for group in beside.groups)
+
+
+def _source(group: Group, beside: Beside) -> DraftSource:
+    zone = zone_as_before(group, beside.groups, beside.before.of(group))
+    return DraftSource(
+        group.source,
+        group.reader,
+        group.template,
+        tuple(filter(None, _questions(group, beside, zone_known=bool(zone)))),
+        group.table,
+        beside.aligned.get(group.source),
+        common(f.letters for f in (*group.files, *group.calibrations)),
+        (*group.told, *(["timezone as in the campaign file before"] if zone else [])),
+        zone,
+    )
+
+
+def _questions(group: Group, beside: Beside, *, zone_known: bool) -> Iterator[str | None]:
+    yield from (hinted(a, group, beside.groups) for a in group.asks)
+    if not zone_known and (asked := zone_question(group, beside.groups, beside.folder)):
+        yield asked + beside.before.said()
+    yield from _of_clocks(group, beside)
+    yield from group.questions
+    yield from one_or_many(group, beside.groups, beside.table.rows if beside.table else ())
+    yield from packed_pieces(group, beside.ignored)
+
+
+def _of_clocks(group: Group, beside: Beside) -> tuple[str | None, ...]:
+    """Questions about when a source began, unless its clock is had from another's, times that repeat
+    and a clock that was set."""
+    known = group.source in beside.aligned or any(a.there == group.source for a in beside.aligned.values())
+    return (
+        None if known else start_question(group, beside.groups),
+        repeats_question(group),
+        set_back_question(group),
+    )
