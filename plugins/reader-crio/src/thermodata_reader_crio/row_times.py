@@ -26,11 +26,9 @@ def local_ns(date: str, time: str) -> int | None:
     return None if day is None or of_day == NAT or day < EPOCH_1904_NS else day + of_day
 
 
-def utc_ns(local: Int1D, timezone: str | None, notes: list[str]) -> Int1D:
-    """UTC of the local starts of pieces in their order, shape (n,); what had to be decided is noted."""
-    utc, decided = local_to_utc_ns(local.view("datetime64[ns]"), timezone, of="starts")
-    notes.extend(n for n in decided if n not in notes)
-    return utc
+def utc_ns(local: Int1D, timezone: str | None) -> tuple[Int1D, list[str]]:
+    """(UTC of the local starts of pieces in their order, shape (n,); notes of what had to be decided)."""
+    return local_to_utc_ns(local.view("datetime64[ns]"), timezone, of="starts")
 
 
 def is_labview_seconds(values: Float1D) -> bool:

@@ -11,8 +11,8 @@ from thermodata_reader_crio.lvm.header import Header, Packet
 _FIRST_BYTES = 16 * 1024
 
 
-def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) -> str:
-    """The decimal mark that the data show; where they show none, what the header says."""
+def decimal_of(data: bytes, header: Header, packet: Packet) -> tuple[str, str | None]:
+    """(the decimal mark that the data show, or where they show none what the header says; a note where both differ)."""
     lines = data[:_FIRST_BYTES].decode("utf-8", "replace").splitlines()[:200]
     cells = (c for line in lines for c in line.split(header.separator)[: packet.width])
     try:
@@ -20,8 +20,8 @@ def decimal_of(data: bytes, header: Header, packet: Packet, notes: list[str]) ->
     except FormatError:
         found = None
     if found is not None and header.decimal is not None and found != header.decimal:
-        notes.append(f"the header says that '{header.decimal}' is the decimal mark, the data have '{found}'")
-    return found or header.decimal or "."
+        return found, f"the header says that '{header.decimal}' is the decimal mark, the data have '{found}'"
+    return found or header.decimal or ".", None
 
 
 def grid_of(header: Header, packet: Packet, decimal: str, least: int | None = None) -> Grid:
@@ -37,4 +37,4 @@ def grid_of(header: Header, packet: Packet, decimal: str, least: int | None = No
 def first_rows(data: bytes, header: Header, packet: Packet) -> Rows:
     """The first rows of a packet, for what only the data tell."""
     end = data.rfind(b"\n", 0, _FIRST_BYTES) + 1 or len(data)
-    return parse(data[:end], 0, grid_of(header, packet, decimal_of(data, header, packet, []), least=2))
+    return parse(data[:end], 0, grid_of(header, packet, decimal_of(data, header, packet)[0], least=2))

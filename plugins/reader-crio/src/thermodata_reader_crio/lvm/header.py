@@ -82,8 +82,9 @@ def split_heading(lines: list[str]) -> tuple[list[str], list[str]]:
     return lines[:at], lines[at:]
 
 
-def read_header(lines: list[str], notes: list[str]) -> Header:
-    """The file's header. Its own lines show the separator even where the tag is damaged."""
+def read_header(lines: list[str]) -> tuple[Header, str | None]:
+    """(the file's header, a note where it contradicts itself). Its own lines show the separator even where the tag is
+    damaged."""
     separator = next(
         (s for s in ("\t", ",", ";") if any(re.match(rf"^(X_Columns|Multi_Headings|Date){s}", line) for line in lines)),
         "\t",
@@ -94,13 +95,12 @@ def read_header(lines: list[str], notes: list[str]) -> Header:
         keys.setdefault(name.strip(), value.strip(" " if name.strip() == "Decimal_Separator" else separator + " "))
     said = keys.get("Separator", "")
     named = _SEPARATORS.get(said.lower(), said if said in ("\t", ",", ";") else None)
+    note = None
     if named is not None and named != separator:
-        notes.append(
-            f"the header names the separator '{said}', but is itself separated by "
-            f"{'tabs' if separator == chr(9) else repr(separator)}"
-        )
+        own = "tabs" if separator == "\t" else repr(separator)
+        note = f"the header names the separator '{said}', but is itself separated by {own}"
     decimal = keys.get("Decimal_Separator", "")[:1]
-    return Header(
+    header = Header(
         separator,
         decimal if decimal in (".", ",") else None,
         keys.get("X_Columns", "").strip(),
@@ -108,6 +108,7 @@ def read_header(lines: list[str], notes: list[str]) -> Header:
         keys.get("Date", ""),
         keys.get("Time", ""),
     )
+    return header, note
 
 
 def read_packet(lines: list[str], names_line: str, header: Header, path: Path, number: int) -> Packet:

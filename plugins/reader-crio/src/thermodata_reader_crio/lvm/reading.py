@@ -30,7 +30,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     waiting: _Parsing | None = None
     last_ns: int | None = None
     with ThreadPoolExecutor(1) as pool:
-        for item in _and_end(scan(path, encoding, [])):
+        for item in _and_end(scan(path, encoding)):
             begun = reading.begin(item, pool) if isinstance(item, RowPart) and reading is not None else None
             if waiting is not None:
                 for made in waiting.items():
@@ -86,8 +86,8 @@ class _Reading:
         if self.into is None:
             if not data.strip():
                 return None
-            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.starts, [])
-            grid = grid_of(self.header, self.packet, decimal_of(data, self.header, self.packet, []))
+            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.starts)
+            grid = grid_of(self.header, self.packet, decimal_of(data, self.header, self.packet)[0])
             self.into = PacketRows(self.name, self.packet, self.streams, times, grid, self.source)
             losses += self.into.left_out()
         if not part.ended:

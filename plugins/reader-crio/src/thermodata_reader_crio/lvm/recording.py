@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 from thermodata.errors import FormatError
@@ -11,7 +11,7 @@ from thermodata.reader.text.file.lines import sample
 from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
-from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan
+from thermodata_reader_crio.lvm.scan import Note, RowPart, has_heading_behind, scan
 from thermodata_reader_crio.lvm.starts import starts_of
 from thermodata_reader_crio.lvm.streams import Streams, is_time
 from thermodata_reader_crio.lvm.times import Times
@@ -31,21 +31,28 @@ def describe(path: Path, source: Source) -> Recording:
     start: int | None = None
     header, packet, fresh = Header(), None, False
     dated = False
-    for item in scan(path, encoding, notes):
-        if isinstance(item, Header):
+    for item in scan(path, encoding):
+        if isinstance(item, Note):
+            notes.append(item.text)
+        elif isinstance(item, Header):
             header = item
         elif isinstance(item, Packet):
             packet, fresh = item, True
-            _declare(streams, packet, signals, notes)
+            notes += _notes(streams, packet, signals)
+            for signal in _signals(streams, packet):
+                signals.setdefault((signal.stream, signal.name), signal)
         elif isinstance(item, RowPart) and packet is not None and fresh:
             fresh = False
             last = not has_heading_behind(path, encoding, item)
-            decimal_of(item.data, header, packet, notes)
-            times = Times(header, packet, first_rows(item.data, header, packet), starts, notes)
+            _, odd = decimal_of(item.data, header, packet)
+            times = Times(header, packet, first_rows(item.data, header, packet), starts)
             for group in streams.groups(packet):
                 base = times.base(group[0])
                 dated = dated or times.dated(group[0])
                 start = base if start is None else min(start, base)
+            notes += [odd] if odd else []
+            known = {*notes}
+            notes += [note for note in times.notes if note not in known]
             if last:
                 break
     if not signals:
@@ -71,7 +78,7 @@ def streams_of(path: Path, encoding: str) -> Streams:
     """The streams; where each channel has an X column of its own, by reading these."""
     streams = Streams()
     header, packet, decimal = Header(), None, None
-    for item in scan(path, encoding, []):
+    for item in scan(path, encoding):
         if isinstance(item, Header):
             header = item
         elif isinstance(item, Packet):
@@ -79,7 +86,7 @@ def streams_of(path: Path, encoding: str) -> Streams:
             if not packet.multi and header.x_columns != "Multi":
                 break
         elif isinstance(item, RowPart) and packet is not None and packet.multi:
-            decimal = decimal or decimal_of(item.data, header, packet, [])
+            decimal = decimal or decimal_of(item.data, header, packet)[0]
             rows = parse(item.data, item.line, grid_of(header, packet, decimal))
             streams.compare(packet, [rows.columns[x].values for x in packet.x if x is not None])
     return streams
@@ -90,20 +97,27 @@ def comment_name(names: Collection[str]) -> str:
     return COMMENT if COMMENT not in names else f"{COMMENT} (text)"
 
 
-def _declare(streams: Streams, packet: Packet, signals: dict[tuple[str, str], Signal], notes: list[str]) -> None:
-    notes.extend(packet.notes)
+def _notes(streams: Streams, packet: Packet, signals: Mapping[tuple[str, str], Signal]) -> Iterator[str]:
+    """What is odd about a heading beside those before it. signals: by stream and name, of these."""
+    yield from packet.notes
     for i, name in enumerate(packet.names):
         if not is_time(packet, i):
-            notes.append(f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out")
+            yield f"{name}: stands over {packet.key('X_Dimension', i)}, not over time; left out"
     for group in streams.groups(packet):
         stream = streams.of(packet, group)
         for change in streams.units.changed(stream, packet, group):
             if streams.units.is_new(stream, change):
-                notes.append(f"line {packet.line}: {change.name}: {change}")
+                yield f"line {packet.line}: {change.name}: {change}"
         for i in group:
-            name = packet.names[i]
-            known = signals.setdefault((stream, name), Signal(name, stream, unit_of(packet, i)))
-            if known.unit is None and (unit := unit_of(packet, i)) is not None:
-                notes.append(f"{name}: only line {packet.line} says its unit, '{unit}'")
-        text = comment_name([packet.names[i] for i in group])
-        signals.setdefault((stream, text), Signal(text, stream, None, "str"))
+            known, unit = signals.get((stream, packet.names[i])), unit_of(packet, i)
+            if known is not None and known.unit is None and unit is not None:
+                yield f"{packet.names[i]}: only line {packet.line} says its unit, '{unit}'"
+
+
+def _signals(streams: Streams, packet: Packet) -> Iterator[Signal]:
+    """The signals of a heading, with the free text beside each stream."""
+    for group in streams.groups(packet):
+        stream = streams.of(packet, group)
+        for i in group:
+            yield Signal(packet.names[i], stream, unit_of(packet, i))
+        yield Signal(comment_name([packet.names[i] for i in group]), stream, None, "str")

@@ -43,13 +43,20 @@ class RowPart:
     byte: int = 0
 
 
-Item = Header | Packet | RowPart | Loss
+@dataclass(frozen=True, slots=True)
+class Note:
+    """What is odd about a header, in words."""
+
+    text: str
 
 
-def scan(path: Path, encoding: str, notes: list[str]) -> Iterator[Item]:
-    """Header, then each packet and its rows; a Loss for a heading that can't be read, and for lines in another
-    encoding. FormatError where there is no header, or no packet at all."""
-    state = _Scan(path, notes)
+Item = Header | Packet | RowPart | Loss | Note
+
+
+def scan(path: Path, encoding: str) -> Iterator[Item]:
+    """Header, then each packet and its rows; a Note where a header is odd, a Loss for a heading that can't be read, and
+    for lines in another encoding. FormatError where there is no header, or no packet at all."""
+    state = _Scan(path)
     for chunk in chunks(path, encoding, PART_BYTES):
         if chunk.odd:
             more = f" ({len(chunk.odd)} such lines)" if len(chunk.odd) > 1 else ""
@@ -68,8 +75,8 @@ def has_heading_behind(path: Path, encoding: str, rows: RowPart) -> bool:
 
 
 class _Scan:
-    def __init__(self, path: Path, notes: list[str]) -> None:
-        self.path, self.notes = path, notes
+    def __init__(self, path: Path) -> None:
+        self.path = path
         self.header: Header | None = None
         self.packets = 0
         self.lost = False
@@ -148,12 +155,14 @@ class _Scan:
                 self.strays = []
             if self.header is None or is_file_header(self.lines):
                 own, heading = split_heading(self.lines)
-                header = read_header(own, self.notes)
+                header, odd = read_header(own)
+                if odd is not None:
+                    yield Note(odd)
                 if self.header is None or header != self.header:
                     yield header
                 self.header, self.lines = header, []
                 if heading:
-                    self.notes.append(f"line {line}: no end of the file's header stands before the first heading")
+                    yield Note(f"line {line}: no end of the file's header stands before the first heading")
                     self.lines, self.state = heading, "names"
             elif self.lines or not self.packets:
                 self.state = "names"

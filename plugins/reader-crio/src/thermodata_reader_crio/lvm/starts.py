@@ -3,7 +3,7 @@ which pass of the hour that a zone repeats each one began."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -33,16 +33,14 @@ class Starts:
             if (local := local_ns(*said_start(header, packet, i))) is not None:
                 self.local.setdefault(name, {})[packet.line, i] = local
 
-    def utc(self, packet: Packet, channel: int, notes: list[str]) -> int | None:
-        """UTC of a channel's start [ns], None where its heading has none; what had to be decided is noted.
+    def utc(self, packet: Packet, channel: int) -> tuple[int | None, Sequence[str]]:
+        """(UTC of a channel's start [ns], None where its heading has none; notes of what had to be decided).
 
         FormatError where the starts run straight on through a change of the zone.
         """
         starts, decided = self._resolved
         start = starts.get((packet.line, channel))
-        if start is not None:
-            notes.extend(note for note in decided if note not in notes)
-        return start
+        return start, () if start is None else decided
 
     @cached_property
     def _resolved(self) -> tuple[Mapping[tuple[int, int], int], list[str]]:
@@ -53,7 +51,9 @@ class Starts:
         for own in self.local.values():
             local = tuple(own.values())
             if local not in alike:  # channels of one scan start together
-                alike[local] = utc_ns(np.array(local, np.int64), self.timezone, notes).tolist()
+                utc, decided = utc_ns(np.array(local, np.int64), self.timezone)
+                alike[local] = utc.tolist()
+                notes += [note for note in decided if note not in notes]
             starts.update(zip(own, alike[local], strict=True))
         return starts, notes
 
@@ -62,7 +62,7 @@ def starts_of(path: Path, encoding: str, timezone: str | None) -> Starts:
     """The starts of all packets, by the headings of a file."""
     starts = Starts(timezone)
     header, fresh = Header(), False
-    for item in scan(path, encoding, []):
+    for item in scan(path, encoding):
         if isinstance(item, Header):
             header = item
         elif isinstance(item, Packet):

@@ -14,10 +14,12 @@ from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, sec
 
 
 class Times:
-    """The clock of one packet. first: its first rows; starts: of all packets of the file."""
+    """The clock of one packet. first: its first rows; starts: of all packets of the file. notes: of what is odd about
+    it, as far as it was asked."""
 
-    def __init__(self, header: Header, packet: Packet, first: Rows, starts: Starts, notes: list[str]) -> None:
-        self.header, self.packet, self.starts, self.notes = header, packet, starts, notes
+    def __init__(self, header: Header, packet: Packet, first: Rows, starts: Starts) -> None:
+        self.header, self.packet, self.starts = header, packet, starts
+        self.notes: list[str] = []
         self.labview: dict[int, bool] = {}
         self.empty: set[int] = set()
         for x in {x for x in packet.x if x is not None}:
@@ -25,9 +27,9 @@ class Times:
             self.labview[x] = is_labview_seconds(values)
             if values.size and not np.isfinite(values).any():
                 self.empty.add(x)
-                notes.append(f"line {packet.line}: its X column is empty; rows are counted by Delta_X")
+                self.notes.append(f"line {packet.line}: its X column is empty; rows are counted by Delta_X")
         if packet.x and packet.x[0] is None and first.n and bool(np.isfinite(first.columns[0].values).all()):
-            notes.append(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
+            self._say(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
 
     def base(self, channel: int) -> int:
         """The time of X = 0, or of the first row where rows are counted; 0 where the file names no date."""
@@ -64,7 +66,9 @@ class Times:
 
     def _start(self, channel: int) -> int | None:
         """UTC of the packet's Date and Time (local, as the source's zone says); None where there is none."""
-        start = self.starts.utc(self.packet, channel, self.notes)
+        start, decided = self.starts.utc(self.packet, channel)
+        for note in decided:
+            self._say(note)
         date, time = said_start(self.header, self.packet, channel)
         if start is None and (date or time):
             self._say(
