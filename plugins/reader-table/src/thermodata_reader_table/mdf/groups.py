@@ -12,7 +12,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Array, Loss, Scaling, Signal, Source
 from thermodata.reader.text.names.header import unique
 from thermodata_reader_table.mdf.library import damage_as_format_error
-from thermodata_reader_table.mdf.start_time import start_ns
+from thermodata_reader_table.mdf.start_time import start_of
 
 _TEXT_V4, _TEXT_V3 = {7, 8, 9, 10, 11}, {11, 12}
 _LINEAR_V4, _LINEAR_V3 = 1, 0
@@ -47,9 +47,8 @@ class File:
     def __init__(self, mdf: Any, source: Source, where: str) -> None:
         self.mdf, self.inner, self.where, self.source = mdf, mdf._mdf, where, source
         self.v4 = str(mdf.version) >= "4"
-        self.notes: list[str] = []
+        self.start_ns, self.notes = start_of(mdf.header, self.v4, source, where)
         self.losses: list[Loss] = []
-        self.start_ns = start_ns(mdf.header, self.v4, source, where, self.notes)
         self.groups: list[Group] = []
         used: list[str] = []
         for index, group in enumerate(self.mdf.groups):
