@@ -76,7 +76,7 @@ def shown(values: dict[str, list[Any]]) -> dict[str, list[str]]:
 )
 def test_columns_are_those_of_the_standard_library(kinds: list[bytes], order: list[int], step: int) -> None:
     messages = [kinds[k % len(kinds)] for k in order]
-    topic = discover("/m", {"c": JsonDecoder(None)}, {"c": messages[::step]}, False, 1 << 20, [])
+    topic = discover("/m", {"c": JsonDecoder(None)}, {"c": messages[::step]}, False, 1 << 20)[0]
     if topic is None:
         return
     parts = list(arrow.columns(topic, messages, 0))

@@ -267,7 +267,7 @@ def test_many_at_once_are_as_one_by_one(order: list[int], data: st.DataObject) -
         payloads[place] = payloads[place][:kept] + tail
     enums = data.draw(st.sampled_from(["number", "label"]))
     decoder = protobuf_decoder(Schema("lab.Machine", "protobuf", machine_files().SerializeToString()), enums)
-    topic = discover("/m", {"c": decoder}, {"c": payloads[:: data.draw(st.integers(1, 3))]}, False, 1 << 20, [])
+    topic = discover("/m", {"c": decoder}, {"c": payloads[:: data.draw(st.integers(1, 3))]}, False, 1 << 20)[0]
     if topic is None:
         return
     a, b = decoder.columns(topic, payloads), one_by_one(topic, decoder.decode, payloads, 0)

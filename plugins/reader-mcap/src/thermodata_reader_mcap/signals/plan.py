@@ -83,7 +83,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         samples, more = find_samples(batches)
         notes += more
         batches = {c: parted(b, samples[c.topic]).batch if c.topic in samples else b for c, b in batches.items()}
-    found = _topics(batches, chosen, source, walk.whole, notes)
+    found = _topics(batches, chosen, source, walk.whole)
+    notes += found.notes
     unread = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
     if unread and not found.topics:
         raise FormatError(
@@ -99,7 +100,9 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     series, more = _senders(found, batches, stamped, chosen.series)
     notes += more
     times = {chosen.stamp} if chosen.stamp is not None else set[Path]()
-    units = units_said([t for t in found.topics if t not in series], found.topics, found.readers, batches, times, notes)
+    bare = [t for t in found.topics if t not in series]
+    units, more = units_said(bare, found.topics, found.readers, batches, times)
+    notes += more
     found.sent.leave([one.of for one in units])
     notes += filter(None, (found.sent.note(topic, found.decoders(name)) for name, topic in found.topics.items()))
     return Plan(
@@ -153,6 +156,7 @@ class _Found:
     readers: dict[Channel, Decoder] = field(default_factory=dict)
     unsupported: dict[str, str] = field(default_factory=dict)
     sent: UnitsOfChannels = field(default_factory=UnitsOfChannels)
+    notes: list[str] = field(default_factory=list)
 
     def decoders(self, topic: str) -> dict[Channel, Decoder]:
         """Those of a topic's channels."""
@@ -195,7 +199,7 @@ def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> d
     return {topic: PUBLISH for topic in found.topics if chosen.publish or topic in different}
 
 
-def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool, notes: list[str]) -> _Found:
+def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool) -> _Found:
     """What is read of each topic, by its messages: its signals and how they decode, or why it is not. whole: the
     batches hold all messages."""
     by_topic: dict[str, list[Channel]] = {}
@@ -206,9 +210,11 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
     budget = max((WHOLE if whole else WHOLE // 2) // max(1, len(by_topic)), 1 << 16)
     for topic, channels in by_topic.items():
         samples = {c: batches[c].payloads for c in channels}
-        made, problems = readers(channels, samples, chosen, source.encoding, notes)
+        made, problems, notes = readers(channels, samples, chosen, source.encoding)
+        result.notes += notes
         made = by_name(made, samples)
-        found = discover(topic, made, samples, whole, budget, notes) if made else None
+        found, notes = discover(topic, made, samples, whole, budget) if made else (None, [])
+        result.notes += notes
         if problems:
             result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))
         if found is not None:

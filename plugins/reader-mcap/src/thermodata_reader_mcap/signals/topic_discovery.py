@@ -27,9 +27,9 @@ def readers(
     samples: Mapping[Channel, Sequence[bytes]],
     options: Options,
     encoding: str | None,
-    notes: list[str],
-) -> tuple[dict[Channel, Decoder], dict[Channel, str]]:
-    """The decoders of channels, and why others have none."""
+) -> tuple[dict[Channel, Decoder], dict[Channel, str], list[str]]:
+    """(the decoders of channels, why others have none, notes)."""
+    notes: list[str] = []
     made: dict[Channel, Decoder] = {}
     problems: dict[Channel, str] = {}
     for channel in channels:
@@ -45,7 +45,7 @@ def readers(
                 + ("" if encoding else " (set encoding: if that is wrong)")
             )
         made[channel] = one
-    return made, problems
+    return made, problems, notes
 
 
 def by_name(made: Mapping[Channel, Decoder], samples: Mapping[Channel, Sequence[bytes]]) -> dict[Channel, Decoder]:
@@ -76,23 +76,22 @@ def discover(
     samples: Mapping[Channel, Sequence[bytes]],
     whole: bool,
     budget: int,
-    notes: list[str],
-) -> Topic | None:
-    """The topic; None where no message decodes. whole: the samples are all messages. budget: bytes to look at."""
+) -> tuple[Topic | None, list[str]]:
+    """(the topic, None where no message decodes; notes). whole: the samples are all messages. budget: bytes to look
+    at."""
     objects, others = Survey(), Survey()
     exact = whole
     for channel, one in made.items():
         exact &= _survey(one, samples.get(channel, ()), budget // len(made), objects, others)
     wrapped = objects.total < others.total
     survey = others if wrapped else objects
-    leaves, more = find_leaves(name, survey, _declared(list(made.values())), exact)
-    notes += more
+    leaves, notes = find_leaves(name, survey, _declared(list(made.values())), exact)
     if not leaves:
-        return None
+        return None, notes
     chosen = {leaf.path for leaf in leaves}
     inner = {path[:k] for path in survey.seen for k in range(len(path))}
     skipped = set(survey.binary) | {path for path in survey.seen if path not in chosen and path not in inner}
-    return Topic(name, leaves, wrapped, frozenset(survey.long), frozenset(skipped))
+    return Topic(name, leaves, wrapped, frozenset(survey.long), frozenset(skipped)), notes
 
 
 def _declared(decoders: list[Decoder]) -> Declared:

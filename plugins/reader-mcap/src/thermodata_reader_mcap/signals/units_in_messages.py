@@ -31,30 +31,28 @@ def units_said(
     readers: Mapping[Channel, Decoder],
     batches: Mapping[Channel, Batch],
     kept: Collection[Path],
-    notes: list[str],
-) -> tuple[UnitColumn, ...]:
-    """Which fields of some topics say the units of others, message by message; the topics get these. kept: paths of
-    times, which are no readings."""
+) -> tuple[tuple[UnitColumn, ...], list[str]]:
+    """(which fields of some topics say the units of others, message by message; notes); the topics get these. kept:
+    paths of times, which are no readings."""
     told: tuple[UnitColumn, ...] = ()
+    notes: list[str] = []
     for name in names:
         made = {c: one for c, one in readers.items() if c.topic == name and c in batches}
-        topics[name], more = _with_units(topics[name], batches, made, kept, notes)
+        topics[name], more, said = _with_units(topics[name], batches, made, kept)
         told += more
-    return told
+        notes += said
+    return told, notes
 
 
 def _with_units(
-    topic: Topic,
-    batches: Mapping[Channel, Batch],
-    made: Mapping[Channel, Decoder],
-    kept: Collection[Path],
-    notes: list[str],
-) -> tuple[Topic, tuple[UnitColumn, ...]]:
+    topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], kept: Collection[Path]
+) -> tuple[Topic, tuple[UnitColumn, ...], list[str]]:
     """Of one topic. Several units that don't convert into each other, or may be of several fields, are a note."""
     words = [leaf for leaf in topic.leaves if leaf.dtype == "str" and _says_unit(leaf)]
     if not words:
-        return topic, ()
+        return topic, (), []
     told: dict[str, UnitColumn] = {}
+    notes: list[str] = []
     for leaf, seen in zip(words, looked_at(words, batches, made, _LOOKED_AT)[2], strict=True):
         numbers = _numbers_beside(leaf, words, topic.leaves, kept)
         alias = f"{topic.name}.unit"  # a pair is called after its number
@@ -66,7 +64,7 @@ def _with_units(
         more = told[found.of].note() if found else unit_column_note(kinds, said)
         if more:
             notes.append(more.replace(f"'{alias}'", f"'{leaf.name}'"))
-    return replace(topic, leaves=_with(topic.leaves, told)), tuple(told.values())
+    return replace(topic, leaves=_with(topic.leaves, told)), tuple(told.values()), notes
 
 
 def _says_unit(leaf: Leaf) -> bool:
