@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from thermodata.plugin import Bool1D, Float1D, Float2D
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 
 HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 BESIDE = 5  # intervals that a slope beside a step is taken over
@@ -85,9 +85,7 @@ def comes_back(x: Float1D, t: Float1D, i: int, side: int) -> bool:
     On the same smooth course (a parabola over both sides), what decays to a tenth at most must leave much less squared
     error than what stays. The course carries what heat does beside it: a slip on a slope that leads back is still one.
     """
-    # one of the two samples at the step is the mean of both levels, where a step parts it
-    rows = np.concatenate([np.arange(max(0, i - side), i - 1), np.arange(i + 1, min(len(x), i + side))])
-    u = (t[rows] - t[i]) / (side * float(np.median(np.diff(t))))
+    rows, u = _both_sides(t, i, side)
     course, stays = np.vander(u, 3), np.where(rows >= i, 1.0, 0.0)
     slowest = 1 / float(np.log(1 / BACK_TO))
     decays = [stays * np.exp(-np.maximum(u, 0.0) / tau) for tau in np.geomspace(slowest / 2**3, slowest, TIMES)]
@@ -101,8 +99,7 @@ def smooth_but_for(x: Float1D, t: Float1D, i: int, size: float, side: int, least
 
     Straight lines over 20 min lie apart wherever the course bends; this course may.
     """
-    rows = np.concatenate([np.arange(max(0, i - side), i - 1), np.arange(i + 1, min(len(x), i + side))])
-    u = (t[rows] - t[i]) / (side * float(np.median(np.diff(t))))
+    rows, u = _both_sides(t, i, side)
     columns = np.column_stack([np.vander(u, 3), np.where(rows >= i, 1.0, 0.0)])
     if len(rows) <= columns.shape[1]:
         return False
@@ -110,6 +107,13 @@ def smooth_but_for(x: Float1D, t: Float1D, i: int, size: float, side: int, least
     scatter = float(np.sqrt(_left(columns, x[rows]) / (len(rows) - columns.shape[1])))
     error = scatter * float(np.sqrt(np.linalg.pinv(columns.T @ columns)[-1, -1]))
     return 1 - ALIKE <= level / size <= 1 + ALIKE and abs(level) >= least * error
+
+
+def _both_sides(t: Float1D, i: int, side: int) -> tuple[Int1D, Float1D]:
+    """(the rows of a side before the step at sample i and of one behind it, their times from the step in sides)."""
+    # one of the two samples at the step is the mean of both levels, where a step parts it
+    rows = np.concatenate([np.arange(max(0, i - side), i - 1), np.arange(i + 1, min(len(t), i + side))])
+    return rows, (t[rows] - t[i]) / (side * float(np.median(np.diff(t))))
 
 
 def is_quick(x: Float1D, t: Float1D, i: int, size: float, side: int, noise: float) -> bool:
