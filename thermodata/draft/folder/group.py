@@ -12,6 +12,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.over_tests import over_tests
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
+from thermodata.schema.words.numbered import numbered
 from thermodata.schema.words.sentences import counted
 
 _NEAR_NS = 15 * 60 * 1_000_000_000
@@ -54,10 +55,7 @@ def _legal(ids: Iterable[str]) -> dict[str, str]:
         if test in found:
             continue
         base = re.sub(r"[\x00-\x1f/\\{}*?\[\]]", "_", test).strip()[:110] or "test"
-        name, n = base, 1
-        while name.lower() in taken:
-            n += 1
-            name = f"{base}-{n}"
+        name = numbered(base, lambda name: name.lower() in taken, "-")
         taken.add(name.lower())
         found[test] = name
     return found

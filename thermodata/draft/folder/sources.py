@@ -13,6 +13,7 @@ from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.files.rotated import unrotated
 from thermodata.reader.text import split_unit
+from thermodata.schema.words.numbered import numbered
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
 _ALIKE = 0.5  # of the shorter list of signals
@@ -190,9 +191,6 @@ def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], tak
         base = sensor
     elif own and not alone and plain(own[0])[:1].isalpha():
         base = plain(own[0])
-    name, n = base[:30], 1
-    while name.lower() in taken:
-        n += 1
-        name = f"{base[:30]}{n}"
+    name = numbered(base[:30], lambda name: name.lower() in taken, "")
     taken.add(name.lower())
     return name

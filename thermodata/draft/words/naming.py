@@ -9,6 +9,7 @@ from collections.abc import Set
 from anyascii import anyascii
 
 from thermodata.schema.files.campaign import RESERVED_NAMES
+from thermodata.schema.words.numbered import numbered
 
 _LETTERS = str.maketrans(
     {
@@ -93,8 +94,4 @@ def channel_name(wanted: str, taken: Set[str]) -> str:
     """A legal name: `wanted`, or `wanted_2` where it is taken. taken: in lower case, for case tells no two apart."""
     base = plain(wanted) or "channel"
     base = (base if base[0].isalpha() else f"ch_{base}")[:60].rstrip("_")
-    name, n = base, 1
-    while name.lower() in taken or name.lower() in RESERVED_NAMES:
-        n += 1
-        name = f"{base}_{n}"
-    return name
+    return numbered(base, lambda name: name.lower() in taken or name.lower() in RESERVED_NAMES, "_")

@@ -18,6 +18,7 @@ from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.numbered import numbered
 
 STREAM = "nc"
 GONE = "UNAVAILABLE"
@@ -119,18 +120,10 @@ def plan(
     for key, item in items.items():
         signals = targets(key, item, measured(key))
         if taken.intersection(t.name for t in signals):  # 'a' of two numbers beside an item called 'a[0]'
-            signals = [Target(_free(key, taken), "str")]
+            signals = [Target(numbered(key, taken.__contains__), "str")]
         taken.update(t.name for t in signals)
         fed[key] = signals
     return Plan(fed, first, sum(map(len, fed.values())) > _MOST_TOGETHER, form)
-
-
-def _free(key: str, taken: set[str]) -> str:
-    name, number = key, 1
-    while name in taken:
-        number += 1
-        name = f"{key}#{number}"
-    return name
 
 
 def to_utc(times: list[str], clock: LocalClock, form: TimeFormat = ISO) -> Int1D:

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.schema.units.spelling import bare_unit, plain_letters, spelled
+from thermodata.schema.words.numbered import numbered
 
 _BASE = (
     r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
@@ -124,10 +125,7 @@ def unique(names: Sequence[str]) -> list[str]:
     out: list[str] = []
     taken: set[str] = set()
     for i, name in enumerate(names):
-        base = name or f"column {i + 1}"
-        new, k = base, 2
-        while new in taken:
-            new, k = f"{base}#{k}", k + 1
+        new = numbered(name or f"column {i + 1}", taken.__contains__)
         taken.add(new)
         out.append(new)
     return out

@@ -11,6 +11,7 @@ from thermodata.plugin import Array, Block, Bool1D, Float1D, Int1D, Loss
 from thermodata.reader.signals.events import fill_forward
 from thermodata.reader.text.cells.number import to_float, values_of
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.numbered import numbered
 from thermodata_reader_cnc.sinumerik.trace_records import Frame
 
 LOOK = 2000  # records by which an interval's unit is found
@@ -53,7 +54,7 @@ def groups_of(frame: Frame, taken: Iterable[str]) -> list[Group]:
         name += f"#{seen[name]}" if seen[name] > 1 else ""
         stream = ("servo" if servo else "ipo") + (f"@{interval}" if len(intervals) > 1 else "")
         if (servo, interval) not in groups:
-            groups[servo, interval] = Group(_free(stream, used), servo, {})
+            groups[servo, interval] = Group(numbered(stream, used.__contains__, " #"), servo, {})
             used.add(groups[servo, interval].stream)
         groups[servo, interval].names[key] = name
     for (servo, interval), group in groups.items():
@@ -65,14 +66,6 @@ def groups_of(frame: Frame, taken: Iterable[str]) -> list[Group]:
             ]
             group.step_s = _step(interval, np.array(times), frame, group)
     return list(groups.values())
-
-
-def _free(stream: str, used: set[str]) -> str:
-    name, number = stream, 1
-    while name in used:
-        number += 1
-        name = f"{stream} #{number}"
-    return name
 
 
 def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | None:
