@@ -80,7 +80,11 @@ def _members(path: Path) -> list[zipfile.ZipInfo]:
             members = archive.infolist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
         raise FormatError(
-            "not a readable workbook", where=path.name, expected="an XLSX (ZIP) file", got=str(error)
+            "not a readable workbook",
+            where=path.name,
+            expected="an XLSX (ZIP) file",
+            got=str(error),
+            hint="save it as .xlsx in a spreadsheet program, or export its sheets as CSV",
         ) from None
     if not any(m.filename.lstrip("/").startswith(("xl/", "[Content_Types]")) for m in members):
         names = [m.filename for m in members[:3]] + ["..."] * (len(members) > 3)
@@ -146,6 +150,7 @@ class _Sheet:
                 where=where,
                 got=f"row {bottom}, column {right}",
                 expected=f"at most {_BOTTOM} rows and {_RIGHT} columns",
+                hint="save it anew as .xlsx in a spreadsheet program",
             )
         if right * bottom > MAX_CELLS or right * bottom > max(_SPARSE, 20 * (self.count + self.unplaced)):
             raise FormatError(
@@ -160,7 +165,12 @@ class _Sheet:
 def inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
     """A part of a workbook, unpacked in pieces of at most 1 MiB. FormatError where it is damaged."""
     if member.header_offset < 0:  # what stands before the archive moves all of its places
-        raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", expected="a ZIP entry")
+        raise FormatError(
+            "damaged workbook",
+            where=f"{path.name} {member.filename}",
+            expected="a ZIP entry",
+            hint="save it anew as .xlsx in a spreadsheet program",
+        )
     file.seek(member.header_offset)
     header = file.read(30)
     if len(header) < 30 or header[:4] != b"PK\x03\x04":
@@ -169,6 +179,7 @@ def inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
             where=f"{path.name} byte {member.header_offset}",
             expected="a ZIP entry",
             got=header[:4].hex(" "),
+            hint="save it anew as .xlsx in a spreadsheet program",
         )
     name, extra = struct.unpack("<HH", header[26:30])
     file.seek(name + extra, 1)
@@ -179,7 +190,11 @@ def inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
             yield raw
         return
     if member.compress_type != zipfile.ZIP_DEFLATED:
-        raise FormatError("workbook packed in an unusual way", where=f"{path.name} {member.filename}")
+        raise FormatError(
+            "workbook packed in an unusual way",
+            where=f"{path.name} {member.filename}",
+            hint="save it anew as .xlsx in a spreadsheet program",
+        )
     unpack = zlib.decompressobj(-15)
     try:
         while left > 0 and (raw := file.read(min(left, 65536))):
@@ -188,7 +203,12 @@ def inflate(file: Any, member: zipfile.ZipInfo, path: Path) -> Iterator[bytes]:
                 yield unpack.decompress(raw, 1 << 20)
                 raw = unpack.unconsumed_tail
     except zlib.error as error:
-        raise FormatError("damaged workbook", where=f"{path.name} {member.filename}", got=str(error)) from None
+        raise FormatError(
+            "damaged workbook",
+            where=f"{path.name} {member.filename}",
+            got=str(error),
+            hint="save it anew as .xlsx in a spreadsheet program",
+        ) from None
 
 
 def _column(letters: bytes) -> int:

@@ -230,6 +230,15 @@ def write_new(out: Path, text: str) -> None:
         with out.open("x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
-        raise UsageError("the campaign file exists, and is never overwritten", where=str(out)) from None
+        raise UsageError(
+            "the campaign file exists, and is never overwritten",
+            where=str(out),
+            hint="run thermodata init again with --force, which keeps it as campaign.1.yaml",
+        ) from None
     except OSError as error:
-        raise UsageError("cannot write the draft", where=str(out), got=error.strerror or str(error)) from None
+        raise UsageError(
+            "cannot write the draft",
+            where=str(out),
+            got=error.strerror or str(error),
+            hint="give yourself the right to write there, or copy the logs to a folder of your own",
+        ) from None

@@ -173,7 +173,11 @@ def partial_fractions_of_s(numerator: Float1D, denominator: Float1D, time_s: flo
         rest = den[-1] * np.prod(p - np.delete(poles, i))
         residue = np.polyval(num[::-1], p) / rest if rest else np.inf
         if not np.isfinite(residue):
-            raise UsageError("two poles of a transfer function coincide", got=_text(complex(p)))
+            raise UsageError(
+                "two poles of a transfer function coincide",
+                got=_text(complex(p)),
+                hint="choose a lower order",
+            )
         if p.imag >= 0:
             weight, s = -residue / p, p / time_s
             modes.append(

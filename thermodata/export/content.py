@@ -157,7 +157,11 @@ def _logged(view: StoreView, campaign: str, test: str) -> list[Stream]:
         label = str(source) if stream in (source, "table") else f"{source}_{stream}"
         streams.append(Stream(label, np.asarray(table.column("t_s").to_numpy(), np.float64), values, flags))
     if not streams:
-        raise UsageError("the test holds no samples", where=f"{campaign}/{test}")
+        raise UsageError(
+            "the test holds no samples",
+            where=f"{campaign}/{test}",
+            hint="name another test, or ingest its logs",
+        )
     return streams
 
 

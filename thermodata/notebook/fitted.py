@@ -232,7 +232,11 @@ class Fit(Shown):
         if named is None:
             worst = max(rows, key=lambda s: s.rmse_um or 0.0, default=None)
             if worst is None:
-                raise UsageError("the model has no open test", where=f"{self.name} {self.id}")
+                raise UsageError(
+                    "the model has no open test",
+                    where=f"{self.name} {self.id}",
+                    hint="fit it anew to tests that have all that it reads",
+                )
             return worst.campaign, worst.test
         for s in rows:
             if named in (s.test, f"{s.campaign}/{s.test}"):

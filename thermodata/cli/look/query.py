@@ -44,7 +44,7 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
       thermodata sql "from binned('gantry', ['day1', 'day2'])"; null for all tests of gantry
     """
     if as_csv and session.as_json:
-        raise UsageError("--csv and --json exclude each other")
+        raise UsageError("--csv and --json exclude each other", hint="leave one of them out")
     if query is None:
         if sys.stdin.isatty():
             raise UsageError("no query", hint='thermodata sql "select * from test"')

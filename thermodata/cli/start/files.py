@@ -176,7 +176,11 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
 
     found = [explain(path) for path in _each(files)]
     if not found:
-        raise UsageError("no file in the folder", where=", ".join(map(str, files)))
+        raise UsageError(
+            "no file in the folder",
+            where=", ".join(map(str, files)),
+            hint="name the logs themselves, or the folder that holds them",
+        )
     rows = [
         {
             "file": e.file,

@@ -113,7 +113,12 @@ def _files(folder: Path) -> list[str]:
         if path.is_file():
             names += [each.relative_to(folder).as_posix() for each in files_in(path)]
         if len(names) >= MOST_FILES:
-            raise UsageError("too many files in the folder", where=str(folder), expected=f"under {MOST_FILES}")
+            raise UsageError(
+                "too many files in the folder",
+                where=str(folder),
+                expected=f"under {MOST_FILES}",
+                hint="name a folder with the logs of the tests to predict, and nothing else",
+            )
     return sorted(names, key=natural)
 
 

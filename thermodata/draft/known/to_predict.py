@@ -116,7 +116,12 @@ def _predicted(
         made, left_out = predict(fitted, under(chosen, conditions))
     left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
     if not made and not left_out:
-        raise UsageError("no test can be predicted", where=target, got="no test")
+        raise UsageError(
+            "no test can be predicted",
+            where=target,
+            got="no test",
+            hint="name a campaign with tests, or a folder with logs",
+        )
     return made, left_out
 
 
@@ -189,6 +194,9 @@ def _campaign_file(folder: Path) -> Path | None:
     ]
     if len(found) > 1:
         raise UsageError(
-            "several campaign files in the folder", where=str(folder), got=", ".join(p.name for p in found)
+            "several campaign files in the folder",
+            where=str(folder),
+            got=", ".join(p.name for p in found),
+            hint="name the one that is meant",
         )
     return found[0] if found else None

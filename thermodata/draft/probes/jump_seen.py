@@ -43,19 +43,38 @@ def jump_seen(campaign: Path, name: str, inside: Callable[[Path], Path]) -> Jump
     path, wanted = str(jumps[name].get("file", "")), str(jumps[name].get("signal", ""))
     full = inside(campaign.parent / path)
     if not path or not is_there(full):
-        raise UsageError("the file of the jump test is not there", where=f"{campaign.name}, {name}", got=path)
+        raise UsageError(
+            "the file of the jump test is not there",
+            where=f"{campaign.name}, {name}",
+            got=path,
+            hint="correct 'file' of the calibration: a path from the campaign file's folder",
+        )
     if size_of(full) > MOST_BYTES:
-        raise UsageError("the file is too large for a jump test to be drawn", where=path)
+        raise UsageError(
+            "the file is too large for a jump test to be drawn",
+            where=path,
+            hint="cut the jump test out of the log, and name that file in 'file' of the calibration",
+        )
     try:
         file = sampled_file(full.parent, PurePosixPath(full.name))
     except ThermodataError as error:
-        raise UsageError("the file of the jump test can't be read", where=path, got=error.what) from error
+        raise UsageError(
+            "the file of the jump test can't be read",
+            where=path,
+            got=error.what,
+            hint="thermodata preview FILE says more",
+        ) from error
     if file is None:
         raise UsageError("no one reader claims the file of the jump test", where=path, hint=f"thermodata sniff {path}")
     signal = match_signal(wanted, file.signals)
     course = file.sample.courses.get((signal.stream, signal.name))
     if course is None or len(course.t_ns) < 2:
-        raise UsageError("the signal has no values to draw", where=path, got=wanted)
+        raise UsageError(
+            "the signal has no values to draw",
+            where=path,
+            got=wanted,
+            hint="correct 'signal' of the calibration, thermodata preview FILE lists those with values",
+        )
     found = staircase(course)
     return JumpSeen(
         name,

@@ -77,7 +77,7 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
         if not answer:
             continue
         if not answer.isprintable() or len(answer) > 2000:
-            raise UsageError("an answer is one line", where=name)
+            raise UsageError("an answer is one line", where=name, hint="write it without line breaks")
         if name not in known:
             at = left_out[channel][0]
             lines[at] = _said(come_to_life(lines[at]), answer, ("channels", channel))

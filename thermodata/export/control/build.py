@@ -109,7 +109,11 @@ class _Maker:
             case law.Where(condition, then, other):
                 return law.Where(self.flat(condition, where), self.flat(then, where), self.flat(other, where))
             case law.Delay():
-                raise UsageError("a dead time that changes can't run in a control", where=where)
+                raise UsageError(
+                    "a dead time that changes can't run in a control",
+                    where=where,
+                    hint="leave the effect out with --without",
+                )
         return node
 
     def _lag(self, of: law.Node, tau: law.Node, where: str) -> law.Node:

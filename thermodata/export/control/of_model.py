@@ -50,7 +50,12 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
             raise unknown_name("effect", name, known, where="--without")
     kept = tuple(t for t in terms if t.id not in asked.without)
     if not kept:
-        raise UsageError("nothing is left of the model", where=fitted.spec.name, got="--without " + ",".join(known))
+        raise UsageError(
+            "nothing is left of the model",
+            where=fitted.spec.name,
+            got="--without " + ",".join(known),
+            hint="name fewer effects with --without",
+        )
     refuse_unlawful(kept, f"model {fitted.spec.name} {model}, response {response.name}")
     inputs = inputs_of(kept, data)
     limits = _limits(response, kept, data, asked)

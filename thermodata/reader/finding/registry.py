@@ -102,7 +102,11 @@ def reader(name: str) -> Reader:
     if name in good:
         return good[name]
     if name in bad:
-        raise UsageError(f"reader '{name}' is installed but does not load", got=bad[name])
+        raise UsageError(
+            f"reader '{name}' is installed but does not load",
+            got=bad[name],
+            hint="install it anew, with what it needs; thermodata plugins shows how it fails",
+        )
     if not good and not bad:
         raise UsageError(f"no reader '{name}': none is installed", hint=INSTALL)
     raise unknown_name("reader", name, list(good))
@@ -116,7 +120,12 @@ def head(path: Path) -> Head:
             start = file.read(HEAD_BYTES)
             return Head(real.name, real.stat().st_size, start)
     except OSError as error:
-        raise UsageError(f"cannot read {path.name}", where=str(path), got=error.strerror or str(error)) from None
+        raise UsageError(
+            f"cannot read {path.name}",
+            where=str(path),
+            got=error.strerror or str(error),
+            hint="see that the file is there, and that you may read it",
+        ) from None
 
 
 def files_in(path: Path) -> list[Path]:

@@ -31,7 +31,11 @@ def check_format(con: duckdb.DuckDBPyConnection, path: Path, prefix: str = "") -
         row = None
     if row is None:
         raise StoreError(
-            "this database is not a store", where=str(path), expected="a table 'store' with one row", got="none"
+            "this database is not a store",
+            where=str(path),
+            expected="a table 'store' with one row",
+            got="none",
+            hint="name the folder of a store with --store, or a new folder",
         )
     version, made_by = int(row[0]), str(row[1])
     if version > FORMAT:

@@ -128,7 +128,11 @@ class Store:
         path = self.path / CATALOGUE
         if not path.exists():
             raise StoreError(
-                "the store has no catalogue any more", where=str(path), expected="a DuckDB database", got="no such file"
+                "the store has no catalogue any more",
+                where=str(path),
+                expected="a DuckDB database",
+                got="no such file",
+                hint="bring catalog.duckdb back from a copy, or name a new folder with --store and ingest again",
             )
         try:
             con.execute(f"attach {connection.literal(str(path))} as kept (read_only)")
@@ -205,7 +209,12 @@ class Store:
         try:
             self.path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise StoreError("the store's folder cannot be made", where=str(self.path), got=str(error)) from error
+            raise StoreError(
+                "the store's folder cannot be made",
+                where=str(self.path),
+                got=str(error),
+                hint="name another folder with --store",
+            ) from error
         with self._turn(exclusive=True):
             if not self.is_at(self.path) or not_begun(self.path):  # else another process was first
                 create_catalogue(self.path)

@@ -136,7 +136,12 @@ def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
                 except FileNotFoundError:
                     continue
                 except OSError as error:
-                    raise StoreError("a file cannot be deleted", where=str(path), got=str(error)) from error
+                    raise StoreError(
+                        "a file cannot be deleted",
+                        where=str(path),
+                        got=str(error),
+                        hint="close what has it open, or give yourself the right, and run it again",
+                    ) from error
                 removed, freed = removed + 1, freed + status.st_size
     for folder in [*(store.path / "model").glob("*/"), *(store.path / "raw").glob(".*.growing.tmp/")]:
         with contextlib.suppress(OSError):  # not empty, or filled again meanwhile

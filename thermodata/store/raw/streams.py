@@ -81,7 +81,10 @@ def read_raw(
             raise
         except Exception as error:
             raise FormatError(
-                "the file cannot be read", where=source_path, got=f"{type(error).__name__}: {error}"
+                "the file cannot be read",
+                where=source_path,
+                got=f"{type(error).__name__}: {error}",
+                hint="copy it anew from where it was recorded, and ingest again",
             ) from error
         check()
         spans = [(w.first_ns, w.last_ns) for w in reading.writers.values() if w.rows]
@@ -97,6 +100,7 @@ def read_raw(
             where=source_path,
             expected="at least one row",
             got="; ".join(x.reason for x in reading.losses) or "none",
+            hint="take it out of the campaign file, or copy it anew from where it was recorded",
         )
     streams[0] = dataclasses.replace(streams[0], losses=tuple(reading.losses))
     return [m.as_kept() for m in streams]

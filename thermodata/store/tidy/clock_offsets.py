@@ -107,6 +107,7 @@ def _ordered(plan: TestPlan) -> list[str]:
                 "the clocks are aligned in a circle",
                 where=f"sources.{name}.clock.align_to",
                 got=" -> ".join((*above, name)),
+                hint="take 'align_to' out of one of them: its clock is then what the others are aligned to",
             )
         there = plan.campaign.sources[name].clock.align_to
         if there is not None:

@@ -103,7 +103,12 @@ def _format(path: Path) -> ModuleType:
     with path.open("rb") as file:
         start = file.read(1024)
     if not start:
-        raise FormatError("an empty file", where=path.name, expected="a table")
+        raise FormatError(
+            "an empty file",
+            where=path.name,
+            expected="a table",
+            hint="take it out of the campaign file, or copy it anew from where it was recorded",
+        )
     if start[:4] == b"PAR1":
         from thermodata_reader_table import parquet
 

@@ -83,6 +83,7 @@ def _kept(asked: _Asked) -> Table:
             where=path.name,
             expected="a table",
             got=repr(first.head[0][:60]) if first.head else "nothing",
+            hint="copy it anew from where it was recorded",
         )
     return with_series(find_table(head, first, source, path.name, asked.stream, strict=True), source)
 
@@ -96,7 +97,13 @@ def find_table(
 
     FormatError where there is none, or it can't be read; QuestionError where it leaves open how."""
     if not any(line.strip() for line in head):
-        raise FormatError("no whole line", where=where, expected="a table", got="nothing")
+        raise FormatError(
+            "no whole line",
+            where=where,
+            expected="a table",
+            got="nothing",
+            hint="copy it anew from where it was recorded",
+        )
     if not named_values(head):
         refuse_foreign(head, where)
     said = source.table or {}

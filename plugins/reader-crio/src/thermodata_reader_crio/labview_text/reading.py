@@ -53,7 +53,13 @@ def _layout(path: Path, source: Source, wanted: Wanted) -> tuple[Layout, str, li
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     if not head:
-        raise FormatError("no whole line", where=path.name, expected="rows of numbers", got="no line that ends")
+        raise FormatError(
+            "no whole line",
+            where=path.name,
+            expected="rows of numbers",
+            got="no line that ends",
+            hint="copy it anew from where it was recorded",
+        )
     return find_layout(head, path.name, wanted), first.encoding, [first.note] if first.note else []
 
 

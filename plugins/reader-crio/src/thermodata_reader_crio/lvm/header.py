@@ -158,11 +158,15 @@ def _alternate(row: list[str], names_line: str, where: str) -> bool:
             where=where,
             expected="X_Value and the names of channels",
             got=names_line[:80],
+            hint="write it anew from LabVIEW with its column headings, or as TDMS",
         )
     multi = len(xs) > 1 and xs == list(range(0, len(row), 2))
     if len(xs) > 1 and not multi:
         raise FormatError(
-            "LVM heading whose X columns do not alternate with its channels", where=where, got=names_line[:80]
+            "LVM heading whose X columns do not alternate with its channels",
+            where=where,
+            got=names_line[:80],
+            hint="write it anew with one X column, or one for each channel, or as TDMS",
         )
     return multi
 

@@ -61,6 +61,7 @@ def describe(path: Path, source: Source) -> Recording:
             where=path.name,
             expected="X_Dimension Time",
             got="spectra, or no channel",
+            hint="write the waveforms themselves to a file, and not their spectra",
         )
     if not dated:
         notes.append("no date in the file: times count from its start")

@@ -179,6 +179,7 @@ class _Scan:
                     where=f"{self.path.name} line {line}",
                     expected=MARK,
                     got=f"{_MOST_HEADER_LINES} lines without it",
+                    hint="write it anew from LabVIEW with its headers whole, or as TDMS",
                 )
 
     def _names(self, text: str, line: int) -> Iterator[Item]:
@@ -203,8 +204,18 @@ class _Scan:
 
     def end(self) -> Iterator[Item]:
         if self.header is None:
-            raise FormatError("LVM file that ends inside its header", where=self.path.name, expected=MARK)
+            raise FormatError(
+                "LVM file that ends inside its header",
+                where=self.path.name,
+                expected=MARK,
+                hint="copy it anew from where it was recorded",
+            )
         if not self.packets:
-            raise FormatError("LVM file without a heading of columns", where=self.path.name, expected="X_Value ...")
+            raise FormatError(
+                "LVM file without a heading of columns",
+                where=self.path.name,
+                expected="X_Value ...",
+                hint="write it anew from LabVIEW with its column headings, or as TDMS",
+            )
         if self.state != "rows":
             yield Loss(f"{self.path.name} end", reason="the file ends inside a heading")

@@ -161,5 +161,6 @@ def read_index(path: Path) -> Index:
             where=f"{path.name} {index.damage or 'byte 0'}",
             expected="a lead-in, its metadata and raw data",
             got=f"a file of {index.size} bytes",
+            hint="copy it anew from where it was recorded, byte by byte",
         )
     return index

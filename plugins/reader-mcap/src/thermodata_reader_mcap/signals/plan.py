@@ -92,6 +92,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             where=name,
             got="; ".join(unread),
             expected="messages in json, cdr, ros1 or protobuf with their schemas",
+            hint="record the topics in one of these, or write their signals as CSV or Parquet",
         )
     chosen = _with_unit(chosen, batches, found, name)
     clock = _clock(chosen, batches, found)

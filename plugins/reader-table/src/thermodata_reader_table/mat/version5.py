@@ -32,18 +32,32 @@ def read(path: Path) -> Tree:
     with path.open("rb") as file:
         size = path.stat().st_size
         if size < 128:
-            raise FormatError("the file ends inside its header", where=path.name, expected="128 bytes", got=str(size))
+            raise FormatError(
+                "the file ends inside its header",
+                where=path.name,
+                expected="128 bytes",
+                got=str(size),
+                hint="copy it anew from where it was saved",
+            )
         data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
     mark = bytes(data[126:128])
     if mark not in (b"IM", b"MI"):
         raise FormatError(
-            "not a MAT file of version 5", where=f"{path.name} byte 126", expected="byte order IM or MI", got=repr(mark)
+            "not a MAT file of version 5",
+            where=f"{path.name} byte 126",
+            expected="byte order IM or MI",
+            got=repr(mark),
+            hint='save it anew in MATLAB: save(name, "-v7.3")',
         )
     order = "<" if mark == b"IM" else ">"
     (version,) = struct.unpack(f"{order}H", data[124:126])
     if version != 0x0100:
         raise FormatError(
-            "not a MAT file of version 5", where=f"{path.name} byte 124", expected="version 0x0100", got=hex(version)
+            "not a MAT file of version 5",
+            where=f"{path.name} byte 124",
+            expected="version 0x0100",
+            got=hex(version),
+            hint='save it anew in MATLAB: save(name, "-v7.3")',
         )
     variables: dict[str, Node] = {}
     losses: list[Loss] = []

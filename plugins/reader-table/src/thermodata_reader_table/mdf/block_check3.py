@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 from pathlib import Path
 
-from thermodata.errors import FormatError
+from thermodata_reader_table.mdf.damage import damaged
 
 _MOST = 500_000
 _FIXED = {
@@ -39,14 +39,14 @@ class _File:
         """The length of the block at a place; FormatError where none of its kind is there."""
         self.seen += 1
         if self.seen > _MOST:
-            raise FormatError("blocks in a circle", where=self.where, got=whose)
+            raise damaged("blocks in a circle", where=self.where, got=whose)
         if not 64 <= at <= len(self.data) - 4:
             if at <= self.size - 4 and self.size > len(self.data):
                 return _FIXED[kind]
-            raise FormatError("a link out of the file", where=self.where, got=f"{at} ({whose})")
+            raise damaged("a link out of the file", where=self.where, got=f"{at} ({whose})")
         length = self.number("H", at + 2)
         if self.data[at : at + 2] != kind or length < _FIXED[kind] or at + length > self.size:
-            raise FormatError(
+            raise damaged(
                 "no whole block where a link leads",
                 where=f"{self.where} byte {at}",
                 expected=kind.decode(),
@@ -56,7 +56,7 @@ class _File:
 
     def number(self, form: str, at: int) -> int:
         if at + 4 > len(self.data):
-            raise FormatError("the file ends inside a block", where=f"{self.where} byte {at}")
+            raise damaged("the file ends inside a block", where=f"{self.where} byte {at}")
         found: int = struct.unpack_from(self.order + form, self.data, at)[0]
         return found
 
@@ -78,7 +78,7 @@ def check3(path: Path) -> None:
         if trigger:
             file.block(trigger, b"TR", f"DG at byte {group}")
         if data > file.size:
-            raise FormatError("a link out of the file", where=file.where, got=f"{data} (DG at byte {group})")
+            raise damaged("a link out of the file", where=file.where, got=f"{data} (DG at byte {group})")
         while channels:
             channels = _group(file, channels)
         group = after
@@ -91,7 +91,7 @@ def _group(file: _File, at: int) -> int:
         file.block(text, b"TX", f"CG at byte {at}")
     record, cycles = file.number("H", at + 20), file.number("I", at + 22)
     if record * cycles > file.size:
-        raise FormatError(
+        raise damaged(
             "more rows than the file has bytes for",
             where=f"{file.where} byte {at}",
             got=f"{cycles} rows of {record} bytes",
@@ -109,7 +109,7 @@ def _group(file: _File, at: int) -> int:
         more = file.number("H", channel + 226) if length >= 228 else 0
         number = file.number("H", channel + 190)
         if start + bits + 8 * more > 8 * record or not bits or (number < 7 and bits > 64) or number > 16:
-            raise FormatError(
+            raise damaged(
                 "a channel that does not fit its record",
                 where=f"{file.where} byte {channel}",
                 expected=f"{8 * record} bits",
@@ -124,9 +124,9 @@ def _conversion(file: _File, at: int) -> None:
     length, kind, count = file.number("H", at + 2), file.number("H", at + 42), file.number("H", at + 44)
     each = {0: 8, 1: 16, 2: 16, 6: 8, 7: 8, 8: 8, 9: 8, 10: 1, 11: 40, 12: 20}.get(kind)
     if each is None and kind != 65535:
-        raise FormatError("an unknown conversion", where=f"{file.where} byte {at}", got=str(kind))
+        raise damaged("an unknown conversion", where=f"{file.where} byte {at}", got=str(kind))
     if each is not None and kind not in (10,) and 46 + each * count > length:
-        raise FormatError(
+        raise damaged(
             "a conversion longer than its block",
             where=f"{file.where} byte {at}",
             got=f"{count} parameters in {length} bytes",

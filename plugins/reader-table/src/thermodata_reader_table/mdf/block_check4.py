@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from thermodata.errors import FormatError
+from thermodata_reader_table.mdf.damage import damaged
 
 _MOST_BLOCKS = 2_000_000
 _DATA = {b"##DT", b"##SD", b"##RD", b"##DV", b"##DI", b"##RV", b"##RI"}
@@ -78,9 +79,7 @@ def check(path: Path) -> Checked:
     with path.open("rb") as file:
         head = file.read(64)
         if len(head) < 64:
-            raise FormatError(
-                "the file ends inside its header", where=path.name, expected="64 bytes", got=str(len(head))
-            )
+            raise damaged("the file ends inside its header", where=path.name, expected="64 bytes", got=str(len(head)))
         finished = head[:8].strip() == b"MDF" and struct.unpack("<H", head[60:62])[0] == 0
         return Checked(_walk(file, path.name, size), finished)
 
@@ -96,17 +95,17 @@ def _walk(file: BinaryIO, where: str, size: int) -> str | None:
             if wanted is not None and seen[at] not in wanted:
                 raise _bad(where, at, whose, wanted, seen[at])
             if listed:
-                raise FormatError("blocks in a circle, or shared", where=f"{where} byte {at}", got=whose)
+                raise damaged("blocks in a circle, or shared", where=f"{where} byte {at}", got=whose)
             continue
         if len(seen) > _MOST_BLOCKS:
-            raise FormatError("more blocks than any log has", where=where, expected=f"at most {_MOST_BLOCKS}")
+            raise damaged("more blocks than any log has", where=where, expected=f"at most {_MOST_BLOCKS}")
         kind, length, links, body = _block(file, where, at, size, whose)
         if wanted is not None and kind not in wanted:
             raise _bad(where, at, whose, wanted, kind)
         seen[at] = kind
         if at + length > size:
             if kind not in _DATA and kind != b"##DZ":
-                raise FormatError(
+                raise damaged(
                     "a block passes the end of the file",
                     where=f"{where} byte {at}",
                     expected=f"{size - at} bytes at most",
@@ -139,16 +138,16 @@ def _walk(file: BinaryIO, where: str, size: int) -> str | None:
 
 def _block(file: BinaryIO, where: str, at: int, size: int, whose: str) -> tuple[bytes, int, tuple[int, ...], bytes]:
     if not 64 <= at <= size - 24:
-        raise FormatError("a link out of the file", where=where, expected=f"64 to {size - 24}", got=f"{at} ({whose})")
+        raise damaged("a link out of the file", where=where, expected=f"64 to {size - 24}", got=f"{at} ({whose})")
     file.seek(at)
     head = file.read(24)
     kind, length, count = head[:4], *struct.unpack("<QQ", head[8:])
     if kind not in _KNOWN:
-        raise FormatError(
+        raise damaged(
             "no block where a link leads", where=f"{where} byte {at}", expected="##XX", got=f"{kind!r} ({whose})"
         )
     if length < max(24 + 8 * count, _FIXED.get(kind, 24)) or count > _MOST_BLOCKS or (count < _LINKS.get(kind, 0)):
-        raise FormatError(
+        raise damaged(
             "a block whose length and links do not fit",
             where=f"{where} byte {at}",
             got=f"{kind[2:].decode()} of {length} bytes with {count} links",
@@ -157,7 +156,7 @@ def _block(file: BinaryIO, where: str, at: int, size: int, whose: str) -> tuple[
         return kind, length, (), b""
     body = file.read(8 * count + 72)
     if len(body) < 8 * count:
-        raise FormatError("the file ends inside a block", where=f"{where} byte {at}", got=kind[2:].decode())
+        raise damaged("the file ends inside a block", where=f"{where} byte {at}", got=kind[2:].decode())
     return kind, length, struct.unpack(f"<{count}Q", body[: 8 * count]), body[8 * count :]
 
 
@@ -175,7 +174,7 @@ def _channel(body: bytes, where: str, at: int, record: int, invalid: int) -> Non
         or (flags & 2 and invalid_bit >= max(8 * invalid, 1))
     )
     if wrong:
-        raise FormatError(
+        raise damaged(
             "a channel that does not fit its record",
             where=f"{where} byte {at}",
             expected=f"{record} bytes, and {invalid} of invalidation bits",
@@ -185,10 +184,10 @@ def _channel(body: bytes, where: str, at: int, record: int, invalid: int) -> Non
 
 def _packed(body: bytes, where: str, at: int, length: int) -> None:
     if len(body) < 24:
-        raise FormatError("the file ends inside a block", where=f"{where} byte {at}", got="DZ")
+        raise damaged("the file ends inside a block", where=f"{where} byte {at}", got="DZ")
     unpacked, packed = struct.unpack("<QQ", body[8:24])
     if packed > length - 48 or unpacked > min(packed * _ZIP_MOST + 1000, _UNPACKED):
-        raise FormatError(
+        raise damaged(
             "a packed block of impossible size",
             where=f"{where} byte {at}",
             expected=f"{length - 48} packed bytes at most",
@@ -198,7 +197,7 @@ def _packed(body: bytes, where: str, at: int, length: int) -> None:
 
 def _bad(where: str, at: int, whose: str, wanted: frozenset[bytes], kind: bytes) -> FormatError:
     names = " or ".join(sorted(k[2:].decode() for k in wanted))
-    return FormatError(
+    return damaged(
         "a link leads to a block of another kind",
         where=f"{where} byte {at}",
         expected=names,

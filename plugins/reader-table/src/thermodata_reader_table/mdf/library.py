@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import FormatError, ThermodataError
+from thermodata_reader_table.mdf.damage import damaged
 
 INSTALL = "pip install 'thermodata-reader-table[mdf]'"
 _FRAGMENT = 16 << 20
@@ -22,7 +23,7 @@ def damage_as_format_error(where: str) -> Iterator[None]:
     except (ThermodataError, GeneratorExit):
         raise
     except Exception as error:  # MemoryError too: pieces are small, so only a damaged length asks for that much
-        raise FormatError("a damaged MDF file", where=where, got=f"{type(error).__name__}: {error}"[:200]) from None
+        raise damaged("a damaged MDF file", where=where, got=f"{type(error).__name__}: {error}"[:200]) from None
 
 
 @contextmanager
