@@ -218,41 +218,50 @@ def to_find(
             "in the model"
         )
     if tests < ENOUGH_TESTS:
-        add = _one_source_each(sources)
-        if tests > FEW_TESTS:
-            return f"{counted(tests, 'test')} took part; {add}: no other test foretells what acts in one alone"
-        all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
-        return (
-            f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
-            f"machines a missing cause was named in {all_at_once} tests where most of them work all parts, and in "
-            f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add}"
-        )
-    worst = spots[0].state if spots else ""
-    logged = ""
-    log = to_log(first, channels) if first is not None and first.drop >= WORTH_A_TEST else None
-    if log is not None:
-        return f"{counted(tests, 'test')} took part, so more of the same will not tell; {log}"
-    if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
-        logged = f"do {first.candidate.protocol}; if nothing differs, "
-    elif first is not None and first.drop >= WORTH_A_TEST:
-        of = first.candidate.channels
-        are, rank, them = ("is", "ranks", "it") if len(of) == 1 else ("are", "rank", "them")
-        closed = first.looked is None
-        opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
-        there = sources.tests_of([channels[c] for c in of if c in channels])
-        alone = f"run a test that moves {them} alone{opened}"
-        if there:
-            alone = f"repeat {listed(there, 'or')}, where what moves {them} works alone, or run it longer{opened}"
-        logged = f"{listed(of)} {are} logged and {rank} first, so {alone}; if it is not that, "
+        return _more_tests(tests, sources)
+    took_part = f"{counted(tests, 'test')} took part, so more of the same will not tell"
+    gives = first is not None and first.drop >= WORTH_A_TEST
+    if first is not None and gives and (log := to_log(first, channels)) is not None:
+        return f"{took_part}; {log}"
+    logged = _by_what_is_logged(first, channels, sources) if first is not None and gives else ""
     if not logged and spots and spots[0].after_warm_start:
         return (
-            f"{counted(tests, 'test')} took part, so more of the same will not tell: the model fails most in "
-            f"{spots[0].test}, {worst}, and what was warm before is in no log of it: run it again from a cold start"
+            f"{took_part}: the model fails most in "
+            f"{spots[0].test}, {spots[0].state}, and what was warm before is in no log of it: run it again from a cold "
+            "start"
         )
     return (
-        f"{counted(tests, 'test')} took part, so more of the same will not tell: {logged}log what is not logged "
+        f"{took_part}: {logged}log what is not logged "
         f"yet near the parts that work where the model fails most{_where(spots)}"
     )
+
+
+def _more_tests(tests: int, sources: Worked) -> str:
+    """Where these are few: what others are to work. tests: those that took part."""
+    add = _one_source_each(sources)
+    if tests > FEW_TESTS:
+        return f"{counted(tests, 'test')} took part; {add}: no other test foretells what acts in one alone"
+    all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
+    return (
+        f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
+        f"machines a missing cause was named in {all_at_once} tests where most of them work all parts, and in "
+        f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add}"
+    )
+
+
+def _by_what_is_logged(first: Scored, channels: Mapping[str, ChannelInfo], sources: Worked) -> str:
+    """How the candidate that ranks first is asked by its own channels, as the beginning of a sentence."""
+    if first.candidate.protocol is not None:
+        return f"do {first.candidate.protocol}; if nothing differs, "
+    of = first.candidate.channels
+    are, rank, them = ("is", "ranks", "it") if len(of) == 1 else ("are", "rank", "them")
+    closed = first.looked is None
+    opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
+    there = sources.tests_of([channels[c] for c in of if c in channels])
+    alone = f"run a test that moves {them} alone{opened}"
+    if there:
+        alone = f"repeat {listed(there, 'or')}, where what moves {them} works alone, or run it longer{opened}"
+    return f"{listed(of)} {are} logged and {rank} first, so {alone}; if it is not that, "
 
 
 def _where(spots: Sequence[WeakSpot]) -> str:
