@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.concise import concise
+from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.flags import flag_stream
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
@@ -23,6 +24,7 @@ from thermodata.schema.units.quantity import canonical, linear_conversion
 
 _MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
 _MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond
+_MOST_EVENTS = 20  # told of a stream
 _BARS, _WIDTH = "▁▂▃▄▅▆▇█", 32
 
 
@@ -123,17 +125,8 @@ def flagged(
 
     Quantities are those of the campaign file, else guesses from names, units and values.
     """
-    from thermodata.reader.finding.match import match_signal
-
     t_ns, columns, own = watch.stream(stream)
-    said: dict[str, tuple[str, str | None, str | None]] = {}
-    channel: str | None
-    for written, (quantity, unit, channel) in (meant.quantities if meant else {}).items():
-        try:
-            hit = match_signal(written, signals)
-        except UsageError:
-            continue
-        said[hit.name] = (quantity, unit or hit.unit, channel)
+    said = _meant_by(meant, signals)
     inputs: dict[str, ColumnInput] = {}
     told: dict[str, dict[str, Any]] = {}
     for signal in signals:
@@ -148,29 +141,41 @@ def flagged(
             "channel": channel,
             "guess": None if channel else guessed.comment(),
             "flags": {},
-            "values": None,
+            "values": None if seen is None else {"low": seen.low, "high": seen.high, "median": seen.median},
             "sparkline": sparkline(column),
         }
-        if seen is not None:
-            told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
         if seen is not None and not seen.numerals:
             values = _canonical(column, quantity, unit)
             inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
     flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
     for name, column in flags.items():
         told[name]["flags"] = {f.word: n for f in Flag if f and (n := int(((column & np.uint16(f)) != 0).sum()))}
-    listed = [
-        {
-            "signal": e.channel,
-            "flag": e.flag,
-            "from": when(e.from_ns, absolute),
-            "to": when(e.to_ns, absolute),
-            "n": e.n,
-            "detail": e.detail,
-        }
-        for e in concise(events)[:20]
-    ]
-    return told, listed
+    return told, [_event(e, absolute) for e in concise(events)[:_MOST_EVENTS]]
+
+
+def _meant_by(meant: Meant | None, signals: list[Signal]) -> dict[str, tuple[str, str | None, str | None]]:
+    """Signal -> (quantity, unit, channel) of those that the campaign file means."""
+    from thermodata.reader.finding.match import match_signal
+
+    said: dict[str, tuple[str, str | None, str | None]] = {}
+    for written, (quantity, unit, channel) in (meant.quantities if meant else {}).items():
+        try:
+            hit = match_signal(written, signals)
+        except UsageError:
+            continue
+        said[hit.name] = (quantity, unit or hit.unit, channel)
+    return said
+
+
+def _event(e: QualityEvent, absolute: bool) -> dict[str, Any]:
+    return {
+        "signal": e.channel,
+        "flag": e.flag,
+        "from": when(e.from_ns, absolute),
+        "to": when(e.to_ns, absolute),
+        "n": e.n,
+        "detail": e.detail,
+    }
 
 
 def _canonical(column: Array, quantity: str, unit: str | None) -> Array:
