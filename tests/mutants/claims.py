@@ -523,7 +523,7 @@ MUTANTS = [
     diagnosis("context.py", "RIVALS = 3", "RIVALS = 9", "every candidate is tried beside the chosen"),
     diagnosis("context.py", "sound(now) and now.evidence >= was.evidence", "sound(now)", "a rival is no context"),
     diagnosis("context.py", "sound(now) and now.evidence", "now.evidence", "a context forbids the claim"),
-    diagnosis("context.py", "found.worth < WORTH", "found.worth < 0", "trifles stand beside"),
+    diagnosis("context.py", "(last, TRIED, WORTH)", "(last, TRIED, 0.0)", "trifles stand beside"),
     diagnosis("context.py", "i < len(chosen) or sound(one)", "i < len(chosen)", "what is sound stays unnamed"),
     diagnosis("context.py", "if read.isdisjoint(c.candidate.channels)", "", "a mode of a cause takes from it"),
     diagnosis("selection.py", "beside(problem, whole.context), whole", "problem, whole", "weighed in the noise of all"),
