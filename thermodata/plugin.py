@@ -239,6 +239,10 @@ class Effect(Protocol):
     it from its like. `refines: tuple[str, ...]`, names of effects that it refines: diagnosis asks for it only where
     the model has one of them. `told_by: str`, a position of its own that tells it from these: where its moves make
     steps diagnosis asks for it without them, too. `asked: bool`, False where diagnosis does not ask for it by itself.
+
+    And one method more, `bases(several, points) -> Sequence[Float2D]`, for effects that do many at once at the cost of
+    few: of each `Drivers` of several, shape (n, points * gains), what `basis` gives at each point, side by side, to the
+    last digit. Without it every basis is asked for by itself.
     """
 
     name: str

@@ -625,6 +625,27 @@ def test_what_the_noise_hides_is_found_in_the_noise_beside_it(monkeypatch: pytes
     assert members(world.select("ab")) == ["b"]
 
 
+@pytest.mark.parametrize(("evidence", "rankings"), [(9.9, 0), (10.1, 1)])
+def test_nothing_is_ranked_in_the_noise_of_what_is_worth_too_little(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, rankings: int
+) -> None:
+    world = Worlds(monkeypatch, lambda n, known: 0.0 if known else evidence)
+    asked: list[int] = []
+    monkeypatch.setattr(noises, "rank_in", lambda *words, **of: [asked.append(1), world._rank(*words[:2], **of)][1])
+    world.select("ab")
+    assert len(asked) == rankings
+
+
+def test_credits_ask_no_left_out_tests(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "b": 40.0}[n])
+    asked: list[bool] = []
+    monkeypatch.setattr(
+        besides, "rank_in", lambda *words, left_out: [asked.append(left_out), world._rank(*words[:2])][1]
+    )
+    world.select("ab")
+    assert asked.count(False) == 1, "of the likelier one, once the other is gone"
+
+
 @pytest.mark.parametrize(("evidence", "asked"), [(5.9, False), (6.1, True)])
 def test_beside_what_is_far_behind_no_noise_is_estimated(
     monkeypatch: pytest.MonkeyPatch, evidence: float, asked: bool

@@ -9,7 +9,8 @@ import pytest
 from scipy.linalg import block_diag
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.question.discrepancy import WIDE, Noise, Whitened, ascend, bounds_of, chain_of, left_over
+from thermodata.diagnosis.question.chain import MANY, WIDE, Chain, chain_of
+from thermodata.diagnosis.question.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
 from thermodata.diagnosis.question.known import known, likeliest, likeliest_of
 from thermodata.diagnosis.question.problem import Problem, freed, start_directions
 from thermodata.diagnosis.weigh.evidence import columns
@@ -157,12 +158,35 @@ def test_a_chain_is_the_factor_of_the_covariance(noise: Noise, many: int) -> Non
     tests[0][41] = tests[0][40]
     slow = [noise.slow**2 * np.exp(-np.abs(t[:, None] - t[None]) / noise.tau_s) for t in tests]
     covariance = block_diag(*slow) + noise.white**2 * np.eye(80)
-    chain, columns = chain_of(tests, noise), rng.normal(size=(80, many))
+    chain, columns = chain_of(tests, noise.white, noise.slow, noise.tau_s), rng.normal(size=(80, many))
     np.testing.assert_allclose(
         chain.halved(columns), np.linalg.solve(np.linalg.cholesky(covariance), columns), rtol=1e-6
     )
     assert chain.logdet == pytest.approx(np.linalg.slogdet(covariance)[1])
     assert chain.halved(np.empty((80, 0))).shape == (80, 0)
+
+
+@pytest.mark.parametrize("sizes", [[20] * 12, [int(9 + i % 7) for i in range(12)], [20] * MANY, [2, 60, *[4] * 20]])
+@pytest.mark.parametrize("many", [3, 60, WIDE - 1])
+def test_tests_beside_each_other_give_what_each_gives_alone(sizes: list[int], many: int) -> None:
+    """To the last digit, for no test knows of another; tests of very different length are taken one by one."""
+    rng = np.random.default_rng(4)
+    tests = [np.cumsum(rng.uniform(10.0, 900.0, rows)) for rows in sizes]
+    chain, columns = chain_of(tests, 0.3, 1.0, 7200.0), rng.normal(size=(sum(sizes), many))
+    found, ends = chain.halved(columns), np.cumsum([0, *sizes])
+    alone = [chain.part(i, i).halved(columns[ends[i] : ends[i + 1]]) for i in range(len(sizes))]
+    assert np.array_equal(found, np.concatenate(alone))
+    assert found.flags.f_contiguous, "products are taken as of what LAPACK gives, to the last digit"
+
+
+def test_few_columns_of_many_tests_are_taken_sample_by_sample(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+    beside = Chain._test_beside_test
+    monkeypatch.setattr(Chain, "_test_beside_test", lambda self, c: [asked.append(len(self.sizes)), beside(self, c)][1])
+    for sizes in ([20] * 12, [20] * (MANY - 1), [400, *[4] * 12]):
+        chain = chain_of([60.0 * np.arange(rows) for rows in sizes], 0.3, 1.0, 7200.0)
+        chain.halved(np.ones((sum(sizes), 60)))
+    assert asked == [12]
 
 
 def test_whitened_noise_is_white_and_offsets_are_gone() -> None:

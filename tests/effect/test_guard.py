@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect import effect
-from thermodata.effect.guard import guarded_basis, read_only
+from thermodata.effect.guard import guarded_bases, guarded_basis, read_only
 from thermodata.errors import EffectError, UsageError
 from thermodata.modelling.model_file.shaped import DEAD_TIME, Shaped
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
@@ -144,3 +144,49 @@ def test_an_effect_of_an_entry_point_is_named_with_its_distribution() -> None:
         guarded_basis(lag, drivers, {})
     assert caught.value.origin.startswith("thermodata-effects-machine-tool ")
     assert caught.value.origin.endswith("(thermodata_effects_machine_tool.generic:Lag)")
+
+
+class GivesAll(Gives):
+    """And all at once."""
+
+    def __init__(self, what: Any, at_once: Any) -> None:
+        super().__init__(what)
+        self.at_once = at_once
+
+    def bases(self, several: Sequence[Drivers], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
+        if isinstance(self.at_once, BaseException):
+            raise self.at_once
+        found: list[Float2D] = self.at_once
+        return found
+
+
+POINTS = [{"tau": 1.0}, {"tau": 2.0}, {"tau": 3.0}]
+
+
+def test_bases_are_taken_as_they_are() -> None:
+    right = [np.full((N, 3), 7.0)] * 2
+    found = guarded_bases(GivesAll(column(), right), [DRIVERS] * 2, POINTS)
+    assert [f is r for f, r in zip(found, right, strict=True)] == [True, True]
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        [],
+        [np.ones((N, 3))],
+        [np.ones((N, 3)), np.ones((N, 2))],
+        [np.full((N, 3), np.nan)] * 2,
+        ValueError("no"),
+        [None] * 2,
+    ],
+    ids=["none", "too few", "narrow", "not finite", "raises", "no arrays"],
+)
+def test_where_bases_are_wrong_each_basis_is_asked_for(wrong: Any) -> None:
+    found = guarded_bases(GivesAll(column(2.0), wrong), [DRIVERS] * 2, POINTS)
+    assert [f.tolist() for f in found] == [np.full((N, 3), 2.0).tolist()] * 2
+    with pytest.raises(EffectError, match="'gives' failed"):
+        guarded_bases(GivesAll(KeyError("zz"), wrong), [DRIVERS] * 2, POINTS)
+
+
+def test_without_bases_each_basis_is_asked_for() -> None:
+    assert guarded_bases(Gives(column(3.0)), [DRIVERS], POINTS)[0].tolist() == np.full((N, 3), 3.0).tolist()

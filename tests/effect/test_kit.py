@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import pytest
@@ -183,6 +183,11 @@ class Promises(Good):
         return ("lag(u, 60) * a",)
 
 
+class LastDigit(Good):
+    def bases(self, several: Sequence[Drivers], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
+        return [np.concatenate([self.basis(d, p) * (1 + 1e-15) for p in points], axis=1) for d in several]
+
+
 class Lawful(Good):
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[str, ...]:
         return ("u * a",)
@@ -234,6 +239,7 @@ def test_an_effect_need_not_be_linear_in_what_drives_it(sound: type[Good]) -> No
         (LinearThatSaysSquare, kit.its_gains_have_the_units_of_what_drives_them),
         (KelvinForgotten, kit.its_gains_have_the_units_of_what_drives_them),
         (Promises, kit.its_law_is_its_basis),
+        (LastDigit, kit.its_bases_are_its_basis),
     ],
 )
 def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.effect.lag import lag, lag_along, lags
+from thermodata.effect.lag import SHORT, WIDE, lag, lag_along, lags, lags_at
 
 
 def test_a_ramp_is_exact_at_any_step() -> None:
@@ -70,3 +70,27 @@ def test_lags_behind_each_other_in_one_pass_are_the_lags_one_by_one() -> None:
         one_by_one = lag(one_by_one, tau, 60.0)
     assert np.allclose(lags(u, taus, 60.0), one_by_one, rtol=1e-9, atol=1e-12)
     assert np.array_equal(lags(u, (), 60.0), u)
+
+
+@pytest.mark.parametrize("taus", [1, 12])
+@pytest.mark.parametrize(
+    "sizes",
+    [[1], [50] * 40, [2, 1, 7], [9, 300, *range(5, 60)], [40, SHORT + 1]],
+    ids=["one", "many", "few", "odd", "long"],
+)
+@pytest.mark.parametrize("alike", [True, False])
+def test_many_lags_are_each_by_itself_to_the_last_digit(sizes: list[int], taus: int, alike: bool) -> None:
+    rng = np.random.default_rng(2)
+    series = [rng.normal(size=n) for n in sizes]
+    steps_s = [60.0 if alike else float(rng.choice([60.0, 59.5, 1.0])) for _ in sizes]
+    taus_s = [float(tau) for tau in np.geomspace(20.0, 1e5, taus)]
+    for found, u, step_s in zip(lags_at(series, taus_s, steps_s), series, steps_s, strict=True):
+        assert np.array_equal(found, np.stack([lag(u, tau_s, step_s) for tau_s in taus_s], axis=1))
+
+
+def test_many_lags_of_which_one_is_none() -> None:
+    u = np.arange(5.0)
+    (found,) = lags_at([u], [0.0, 60.0], [60.0])
+    assert np.array_equal(found[:, 0], u)
+    assert lags_at([], [60.0], []) == []
+    assert [f.shape for f in lags_at([u, np.empty(0)], [60.0] * WIDE, [60.0] * 2)] == [(5, WIDE), (0, WIDE)]

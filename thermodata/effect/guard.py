@@ -6,7 +6,7 @@ Every call is checked: beside the filters that a basis runs it is too quick to b
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -29,13 +29,39 @@ def guarded_basis(effect: Effect, drivers: Drivers, p: Mapping[str, float]) -> F
         raise
     except FAILED as error:
         raise _fault(effect, drivers, f"effect '{effect.name}' failed", _raised(error)) from error
-    shape = len(drivers.t_s), len(effect.gains)
-    right = isinstance(found, np.ndarray) and found.dtype == np.float64 and found.shape == shape
-    # the quickest look at all of it; squares of finite numbers may be too large, which the second look forgives
-    if right and (math.isfinite(np.vdot(found, found)) or np.isfinite(found).all()):
+    right = _has_shape(found, len(drivers.t_s), len(effect.gains))
+    if right and _is_finite(found):
         return found
     rule = "a basis gives one finite float64 column a gain, with a row a sample"
     raise _fault(effect, drivers, f"effect '{effect.name}' broke the rule: {rule}", _given(effect, found, right, p))
+
+
+def guarded_bases(effect: Effect, several: Sequence[Drivers], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
+    """The same at several points in each of several tests, point by point side by side: shape (n, points * gains) each.
+    Of an effect that has `bases` all at once; where these are not what they must be, one basis after the other, which
+    tells what is wrong. EffectError: see `guarded_basis`."""
+    width = len(points) * len(effect.gains)
+    at_once = getattr(effect, "bases", None)
+    if at_once is not None:
+        try:
+            found = list(at_once(several, points))
+        except MemoryError:
+            raise
+        except (EffectError, *FAILED):
+            found = []
+        shapes = [_has_shape(f, len(d.t_s), width) and _is_finite(f) for f, d in zip(found, several, strict=False)]
+        if len(found) == len(several) and all(shapes):
+            return found
+    return [np.concatenate([guarded_basis(effect, d, p) for p in points], axis=1) for d in several]
+
+
+def _has_shape(found: object, rows: int, columns: int) -> bool:
+    return isinstance(found, np.ndarray) and found.dtype == np.float64 and found.shape == (rows, columns)
+
+
+def _is_finite(found: Float2D) -> bool:
+    """By the quickest look at all of it; squares of finite numbers may be too large, which the second look forgives."""
+    return math.isfinite(np.vdot(found, found)) or bool(np.isfinite(found).all())
 
 
 def read_only(drivers: Drivers) -> Drivers:

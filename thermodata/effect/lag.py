@@ -17,6 +17,8 @@ import numpy as np
 from thermodata.plugin import Drivers, Float1D, Float2D
 
 FEW = 2  # lags that one after the other cost less than the preparation of all at once
+WIDE = 160  # columns from which on a row of all at once costs less than one column after the other
+TOGETHER = 1024  # columns of which a row is made at once: more leave the processor's cache
 SHORT = 10_000  # samples up to which the recursion is a banded system of equations, for the import's sake
 
 
@@ -55,6 +57,68 @@ def lag(u: Float1D, tau_s: float, step_s: float, start: float = 0.0) -> Float1D:
 
     x, _ = lfilter([new, old], [1.0, -a], u, zi=[start - new * u[0]])
     return np.asarray(x, dtype=np.float64)
+
+
+def lags_at(series: Sequence[Float1D], taus_s: Sequence[float], steps_s: Sequence[float]) -> list[Float2D]:
+    """What `lag` gives from 0 of each of several series, shape (n,) each, at each time constant: shape (n, taus) each,
+    to the last digit. Many lags cost a fraction of one after the other. taus_s, steps_s, of each series, [s]."""
+    long = [len(u) > SHORT or not len(u) for u in series]
+    if any(long) or min(taus_s, default=0.0) <= 0:
+        return [
+            np.stack([lag(u, tau_s, step_s) for tau_s in taus_s], axis=1) if len(taus_s) else np.empty((len(u), 0))
+            for u, step_s in zip(series, steps_s, strict=True)
+        ]
+    found = dict[int, Float2D]()
+    for some in _about_as_long(series, max(1, TOGETHER // max(1, len(taus_s)))):
+        make = _in_a_row if len(some) * len(taus_s) < WIDE else _side_by_side
+        made = make([series[i] for i in some], taus_s, [steps_s[i] for i in some])
+        found.update(zip(some, made, strict=True))
+    return [found[i] for i in range(len(series))]
+
+
+def _about_as_long(series: Sequence[Float1D], most: int) -> list[list[int]]:
+    """The places of the series, in groups of so many at most, of which none is more than twice as long as another."""
+    groups: list[list[int]] = []
+    for i in sorted(range(len(series)), key=lambda i: len(series[i])):
+        if not groups or len(groups[-1]) >= most or len(series[i]) > 2 * len(series[groups[-1][0]]):
+            groups.append([])
+        groups[-1].append(i)
+    return groups
+
+
+def _in_a_row(series: Sequence[Float1D], taus_s: Sequence[float], steps_s: Sequence[float]) -> list[Float2D]:
+    """All series as one, for each time constant: nothing goes on from one to the next."""
+    whole, sizes = np.concatenate(series), [len(u) for u in series]
+    ends = np.cumsum(sizes)
+    found = np.empty((len(whole), len(taus_s)), order="F")
+    for i, tau_s in enumerate(taus_s):
+        by_step = {step_s: ramp_coefficients(tau_s, step_s) for step_s in set(steps_s)}
+        a, new, old = np.repeat([by_step[step_s] for step_s in steps_s], sizes, axis=0).T
+        new[ends[:-1]] = old[ends[:-1] - 1] = a[ends - 1] = 0.0
+        band = np.empty((2, len(whole)), order="F")
+        np.negative(a, out=band[1])
+        found[:, i] = _banded(whole, band, new[1:], old[:-1], 0.0)
+    ends = ends.tolist()
+    return [found[first:last] for first, last in zip([0, *ends], ends, strict=False)]
+
+
+def _side_by_side(series: Sequence[Float1D], taus_s: Sequence[float], steps_s: Sequence[float]) -> list[Float2D]:
+    """One sample of all of them after the other: what follows the end of a series is not looked at."""
+    by_step = {step_s: np.array([ramp_coefficients(tau_s, step_s) for tau_s in taus_s]) for step_s in set(steps_s)}
+    a, new, old = np.stack([by_step[step_s] for step_s in steps_s]).transpose(2, 0, 1)
+    whole = np.zeros((max(map(len, series)), len(series)))
+    for i, u in enumerate(series):
+        whole[: len(u), i] = u
+    x = np.empty((*whole.shape, len(taus_s)))
+    x[0] = 0.0
+    np.multiply(whole[:-1, :, None], old, out=x[1:])
+    x[1:] += whole[1:, :, None] * new
+    rows, a, part = x.reshape(len(x), -1), a.ravel(), np.empty(a.size)
+    before = rows[0]
+    for row in rows[1:]:
+        row += np.multiply(before, a, out=part)
+        before = row
+    return [np.ascontiguousarray(x[: len(u), i]) for i, u in enumerate(series)]
 
 
 def lag_along(u: Float1D, taus_s: Float1D, step_s: float) -> Float1D:

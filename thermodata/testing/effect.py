@@ -17,6 +17,7 @@ from itertools import product
 
 import numpy as np
 
+from thermodata.effect.guard import guarded_bases
 from thermodata.effect.law import with_parameters
 from thermodata.effect.law_run import evaluate
 from thermodata.effect.places import can_bind
@@ -212,6 +213,15 @@ def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
                     yield f"the law of '{gain.name}' gives something else than the basis, by {_most(told - column):.3g}"
 
 
+def its_bases_are_its_basis(effect: Effect) -> Iterator[str]:
+    several = [*variants(effect), *(shortened(d, len(d.t_s) // 2) for d in variants(effect))]
+    points = [{q.name: float(getattr(q, end)) for q in effect.params} for end in ("start", "lower", "upper")]
+    many = getattr(effect, "bases", lambda *asked: guarded_bases(effect, *asked))
+    for found, drivers in zip(many(several, points), several, strict=True):
+        if not np.array_equal(found, np.concatenate([effect.basis(drivers, p) for p in points], axis=1)):
+            yield "what it gives of many at once is not what it gives of each, to the last digit"
+
+
 def it_says_the_same_on_any_grid(effect: Effect) -> Iterator[str]:
     for coarse in variants(effect):
         fine = on_finer_grid(coarse)
@@ -283,6 +293,7 @@ RULES: tuple[Rule, ...] = (
     it_says_the_same_twice,
     every_parameter_changes_something,
     its_law_is_its_basis,
+    its_bases_are_its_basis,
     it_says_the_same_on_any_grid,
     a_gap_that_was_filled_right_changes_nothing,
     its_gains_have_the_units_of_what_drives_them,

@@ -80,19 +80,18 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
 def _means(problem: Problem, candidate: CandidateEffect, asked: Sequence[Mapping[str, float]]) -> Iterator[Float2D]:
     """What it does at each of the points asked, a block each, shape (m, columns); from what the problem keeps for other
     responses (`sharing`), or made."""
-    kept, made = problem.kept.get("means", {}), dict[int, Float2D]()
+    kept = problem.kept.get("means", {})
     who = candidate.effect if candidate.within is None else candidate
     where = tuple(candidate.binding.items()), tuple(tuple(q.values()) for q in asked)
-    for block in problem.blocks:
+    keys = [(id(who), id(b.test), where, b.group.tobytes()) for b in problem.blocks]
+    # parts of one test share its columns
+    tests = {id(b.test): b.test for b, key in zip(problem.blocks, keys, strict=True) if key not in kept}
+    made = dict(zip(tests, candidate.in_tests(list(tests.values()), asked), strict=True))
+    for block, key in zip(problem.blocks, keys, strict=True):
         test = block.test
-        key = id(who), id(test), where, block.group.tobytes()
         if key in kept:
             yield kept[key][0]
             continue
-        # parts of one test share its columns
-        if id(test) not in made:
-            columns_at = candidate.in_test(test)
-            made[id(test)] = np.concatenate([columns_at(q) for q in asked], axis=1)
         mean = block.mean(made[id(test)])
         if mean.nbytes * len(kept) <= KEPT_BYTES:
             kept[key] = mean, who, test  # an id is one's own as long as one lives

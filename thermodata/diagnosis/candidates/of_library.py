@@ -22,9 +22,9 @@ from thermodata.diagnosis.question.present import (
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
 from thermodata.modelling.inputs.drivers import has_drivers
-from thermodata.modelling.inputs.lead import columns, led_drivers
+from thermodata.modelling.inputs.lead import columns, columns_of_each, led_drivers
 from thermodata.modelling.versions.candidate import with_effect
-from thermodata.plugin import Effect, Float2D
+from thermodata.plugin import Drivers, Effect, Float2D
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.schema.units.quantity import NOT_DRIVERS
 from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale
@@ -109,14 +109,28 @@ class CandidateEffect:
     def in_test(self, test: TestData) -> InTest:
         """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there. It
         is zero, too, where its drivers rest (`plugin.Effect.basis`)."""
-        nothing = np.zeros((len(test.t_s), len(self.effect.gains)))
-        failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
-        if failed or not has_drivers(test, self.binding):
-            return lambda p: nothing
-        drivers, led = led_drivers(test, self.effect, self.binding)
-        if not any(values.any() for values in drivers.values.values()):
+        led = self._led(test)
+        if led is None:
+            nothing = np.zeros((len(test.t_s), len(self.effect.gains)))
             return lambda p: nothing
         return lambda p: columns(self.effect, led, p)
+
+    def in_tests(self, tests: Sequence[TestData], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
+        """The same in each of several tests, at several points side by side: shape (n, points * gains) each."""
+        led = [self._led(test) for test in tests]
+        found = iter(columns_of_each(self.effect, [one for one in led if one is not None], points))
+        width = len(points) * len(self.effect.gains)
+        return [
+            np.zeros((len(t.t_s), width)) if one is None else next(found) for t, one in zip(tests, led, strict=True)
+        ]
+
+    def _led(self, test: TestData) -> tuple[Drivers, int] | None:
+        """What drives it in a test; None where it does nothing there."""
+        failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
+        if failed or not has_drivers(test, self.binding):
+            return None
+        drivers, led = led_drivers(test, self.effect, self.binding)
+        return led if any(values.any() for values in drivers.values.values()) else None
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
         """The parameters of the same effect acting faster and slower (see `known_effects.otherwise`)."""

@@ -6,10 +6,6 @@ Slow noise is an Ornstein-Uhlenbeck process: what drifts, and what a sum of lags
 what makes a long test worth its effective number of samples, not its rows. Sources: [uhlenbeck1930]; a discrepancy
 beside a model: [kennedy2001]. Offsets have a flat prior, so all products are taken after they are projected out
 (restricted likelihood [patterson1971]).
-
-The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B'
-has three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening passes the rows
-of all tests once ([rue2005], ch. 2): between two tests nothing is left of the slow noise.
 """
 
 from __future__ import annotations
@@ -19,8 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dpotrf, dtbtrs, dtrtri, dtrtrs
+from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 
+from thermodata.diagnosis.question.chain import chain_of, sound
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
 
@@ -37,7 +34,6 @@ START_TAU_S = 7200.0
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
 NEAR = 1 << 17  # values that are whitened at once
 PIECE = 320  # rows of which products are taken at once
-WIDE = 400  # columns from which on it costs less to take samples one by one
 SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
 
@@ -50,67 +46,6 @@ class Noise:
     slow: float
     tau_s: float
     share: float
-
-
-@dataclass(frozen=True, slots=True)
-class Chain:
-    """Factor L = B^-1 C of the covariance of all tests, one after the other. carried: what is left of the slow noise
-    from one sample to the next, shape (rows - 1,). factor: C, its diagonal and the one below, shape (2, rows)."""
-
-    carried: Float1D
-    factor: Float2D
-
-    @property
-    def logdet(self) -> float:
-        """Of the covariance: B has the determinant 1."""
-        return 2 * float(np.log(self.factor[0]).sum())
-
-    def part(self, rows: slice) -> Chain:
-        """Of whole tests among all."""
-        return Chain(self.carried[rows.start : rows.stop - 1], self.factor[:, rows])
-
-    def halved(self, columns: Float2D) -> Float2D:
-        """L^-1 times columns, shape (rows, k)."""
-        if not columns.size:
-            return columns
-        if columns.shape[1] >= WIDE:
-            return self._sample_by_sample(columns)
-        steps = np.array(columns, dtype=np.float64, order="F")
-        steps[1:] -= self.carried[:, None] * columns[:-1]
-        return _sound(*dtbtrs(self.factor, steps, uplo="L", overwrite_b=1))
-
-    def _sample_by_sample(self, columns: Float2D) -> Float2D:
-        """The same for many columns, each sample of all at once: LAPACK takes one column after the other, in which each
-        sample waits for the one before."""
-        own = 1.0 / self.factor[0]
-        of_last, of_found = -self.carried * own[1:], -self.factor[1, :-1] * own[1:]
-        found, part = np.empty(columns.shape), np.empty(columns.shape[1])
-        np.multiply(columns[0], own[0], out=found[0])
-        for i, (a, b, c) in enumerate(zip(own[1:].tolist(), of_last.tolist(), of_found.tolist(), strict=True), 1):
-            row = np.multiply(columns[i], a, out=found[i])
-            row += np.multiply(columns[i - 1], b, out=part)
-            row += np.multiply(found[i - 1], c, out=part)
-        return found
-
-
-def chain_of(tests: Sequence[Float1D], noise: Noise) -> Chain:
-    """tests: times of the samples of each, rising, shape (m,)."""
-    t_s = np.concatenate(tests)
-    apart = np.diff(t_s) / noise.tau_s
-    apart[np.cumsum([len(t) for t in tests])[:-1] - 1] = np.inf
-    carried = np.exp(-apart)
-    band = np.zeros((2, len(t_s)))  # B cov B': the diagonal, and the one below
-    band[0] = noise.white**2
-    band[0, 0] += noise.slow**2
-    band[0, 1:] += (noise.white * carried) ** 2 - noise.slow**2 * np.expm1(-2 * apart)
-    band[1, :-1] = -carried * noise.white**2
-    return Chain(carried, _sound(*dpbtrf(band, lower=1)))
-
-
-def _sound(solution: Float2D, info: int) -> Float2D:
-    if info:
-        raise np.linalg.LinAlgError("a covariance is singular")
-    return np.asarray(solution, dtype=np.float64)
 
 
 class Whitened:
@@ -126,7 +61,7 @@ class Whitened:
         self.kept: dict[int, tuple[object, Float2D]] = {}
         self.products: dict[int, tuple[object, NDArray[np.float64]]] = {}
         self._room = KEPT_BYTES
-        self._chain = chain_of([b.t_s for b in problem.blocks], noise)
+        self._chain = chain_of([b.t_s for b in problem.blocks], noise.white, noise.slow, noise.tau_s)
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, self._chain.logdet
         whole, counts = _free_of_all(problem)
@@ -145,12 +80,10 @@ class Whitened:
         """The same of each of several askers, whitened at once. An asker lives as long as this."""
         lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
         ends = np.cumsum([columns.shape[1] for _, columns in lacking])
-        # in one piece, which a system gives sooner than many
-        pieces = np.split(np.empty(sum(columns.size for _, columns in lacking)), ends[:-1] * self.parts[-1].stop)
-        made = {id(who): own.reshape(columns.shape) for (who, columns), own in zip(lacking, pieces, strict=False)}
+        made = {id(who): np.empty(columns.shape) for who, columns in lacking}
         for first, last in self._few(int(ends[-1]) if lacking else 0):
             rows = slice(self.parts[first].start, self.parts[last].stop)
-            white = self._chain.part(rows).halved(np.hstack([columns[rows] for _, columns in lacking]))
+            white = self._chain.part(first, last).halved(np.hstack([columns[rows] for _, columns in lacking]))
             together = self.projected(white, first)
             for (who, _), own in zip(lacking, np.hsplit(together, ends[:-1]), strict=True):
                 made[id(who)][rows] = own
@@ -227,17 +160,17 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     what stands around it costs more than it does."""
     if not right.size:
         return right
-    return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
+    return sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
 
 
 def cholesky(precision: Float2D) -> Float2D:
     """The lower factor L of a matrix, likewise."""
-    return _sound(*dpotrf(precision, lower=1)) if precision.size else precision
+    return sound(*dpotrf(precision, lower=1)) if precision.size else precision
 
 
 def inverse(factor: Float2D) -> Float2D:
     """L^-1 for a lower Cholesky factor L."""
-    return _sound(*dtrtri(factor, lower=1)) if factor.size else factor
+    return sound(*dtrtri(factor, lower=1)) if factor.size else factor
 
 
 def free_of(block: Block) -> Float2D:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,7 +56,8 @@ class Others:
 class Known:
     """The known effects under a noise. held: their columns in all tests, (rows, k). both: the same and, last, the
     response, whitened, (rows, k + 1). gram: shape (tests, k, k). cross: (tests, k), with the response. energy:
-    (tests,). precision: (k,), of the prior. Factors and means are asked beside each candidate, and kept, by tests."""
+    (tests,). precision: (k,), of the prior. of_all: products with candidates, of all tests, by whose they are. Factors
+    and means are asked beside each candidate, and kept, by tests."""
 
     problem: Problem
     space: Whitened
@@ -65,6 +67,7 @@ class Known:
     cross: Float2D
     energy: Float1D
     precision: Float1D
+    of_all: dict[int, tuple[object, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
     _factors: dict[bytes, Float2D] = field(default_factory=dict, init=False, repr=False, compare=False)
     _means: dict[bytes, Float1D] = field(default_factory=dict, init=False, repr=False, compare=False)
     _others: list[Others] = field(default_factory=list, init=False, repr=False, compare=False)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.modelling.terms.nuisance import unknown_start
+from thermodata.modelling.terms.nuisance import WARM, unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.units.quantity import difference_unit
 from thermodata.view.grid.dataset import Dataset, TestData
@@ -57,6 +57,11 @@ class Block:
     def freed(self, columns: Float2D) -> Float2D:
         """Columns, shape (m, k), without what is free."""
         return freed(columns, self.test, self.t_s, self.segment)
+
+    def with_known(self, base: Float2D, slack: Float2D) -> Block:
+        """The same with what the model can do, shapes (m, k) and (m, s)."""
+        own = self.test, self.t_s, self.response, self.residual, base, slack, self.segment, self.group, self.size
+        return Block(*own)
 
     def without(self, rows: Bool1D) -> Block:
         """The same as if some of its samples, shape (m,), had not been measured."""
@@ -104,7 +109,7 @@ class Problem:
         base = np.hstack([np.vstack([b.base for b in self.blocks]), base])
         slack = np.hstack([np.vstack([b.slack for b in self.blocks]), slack])
         parts = zip(self.blocks, self.parts, strict=True)
-        return replace(self, blocks=tuple(replace(b, base=base[rows], slack=slack[rows]) for b, rows in parts))
+        return replace(self, blocks=tuple(b.with_known(base[rows], slack[rows]) for b, rows in parts))
 
     @property
     def in_parts(self) -> bool:
@@ -160,6 +165,8 @@ def freed(columns: Float2D, test: TestData, t_s: Float1D, segment: Int1D) -> Flo
 def start_directions(test: TestData, t_s: Float1D, segment: Int1D) -> Float2D:
     """An orthonormal basis of what fades from the start beside the offsets, shape (m, directions): (m, 0) where a test
     began at balance, or is too short to tell."""
+    if test.start_state != WARM:
+        return np.empty((len(t_s), 0))
     decays = unknown_start(test, t_s)
     if not decays.size or len(t_s) <= decays.shape[1] + len(np.unique(segment)):
         return np.empty((len(t_s), 0))
@@ -170,7 +177,11 @@ def start_directions(test: TestData, t_s: Float1D, segment: Int1D) -> Float2D:
 def center(columns: Float2D, segment: Int1D) -> Float2D:
     """Columns, shape (m, k), minus their mean in each segment."""
     result = np.array(columns, dtype=np.float64, copy=True)
-    for one in np.unique(segment):
+    segments = np.unique(segment)
+    if len(segments) == 1 and result.flags.c_contiguous:
+        result -= result.mean(axis=0)
+        return result
+    for one in segments:
         rows = segment == one
         result[rows] -= result[rows].mean(axis=0)
     return result
@@ -181,9 +192,11 @@ def _group_mean(columns: Float2D, group: Int1D, size: int) -> Float2D:
     if not size:
         return np.empty((0, columns.shape[1]))
     used = group >= 0
-    starts = np.searchsorted(group[used], np.arange(size))
-    many = np.diff(starts, append=np.count_nonzero(used))
-    result: Float2D = np.add.reduceat(columns[used], starts) / many[:, None]
+    numbers = group[used]
+    starts = np.searchsorted(numbers, np.arange(size))
+    many = np.diff(starts, append=len(numbers))
+    counted = columns if len(numbers) == len(group) and columns.flags.c_contiguous else columns[used]
+    result: Float2D = np.add.reduceat(counted, starts) / many[:, None]
     return result
 
 

@@ -70,18 +70,23 @@ def warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
 def moves(blocks: Sequence[Block], name: str, temperatures: Sequence[str]) -> list[list[Course | None]]:
     """Of the position of an axis: what it does by how far it moves, and by that times how warm it is, by each of its
     temperatures; None for each block that lacks one."""
-    places = [_held(b, name)[0] for b in blocks]
+    places = [_kept(_held, b, name)[0] for b in blocks]
     span = float(np.ptp(np.concatenate(places))) if any(map(len, places)) else 0.0
     least = max(MOVED * span, LEAST_MM)
-    found: list[list[Course | None]] = [[] for _ in range(1 + len(temperatures))]
-    for block, place in zip(blocks, places, strict=True):
-        far, unknown = over_three(place, block.t_s), np.zeros(len(place), dtype=np.bool_)
-        rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
-        found[0].append(Course({1: far}, {1: rows}, unknown) if len(place) else None)
-        for own, temperature in zip(found[1:], temperatures, strict=True):
-            rise = _rise(block, temperature)
-            both = len(place) and len(rise)
-            own.append(Course({WARM: far * rise}, {WARM: rows}, unknown) if both else None)
+    each = [_kept(_of_axis, b, name, tuple(temperatures), least) for b in blocks]
+    return [list(of_blocks) for of_blocks in zip(*each, strict=True)]
+
+
+def _of_axis(block: Block, name: str, temperatures: tuple[str, ...], least: float) -> list[Course | None]:
+    """Of one block, by how far it moves and by each of its temperatures. least: what makes it a move [mm]."""
+    place, _ = _kept(_held, block, name)
+    far, unknown = over_three(place, block.t_s), np.zeros(len(place), dtype=np.bool_)
+    rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
+    found: list[Course | None] = [Course({1: far}, {1: rows}, unknown) if len(place) else None]
+    for temperature in temperatures:
+        rise = _rise(block, temperature)
+        both = len(place) and len(rise)
+        found.append(Course({WARM: far * rise}, {WARM: rows}, unknown) if both else None)
     return found
 
 
@@ -95,7 +100,7 @@ def _from_place_to_place(place: Float1D, far: Float1D, least: float, many: int) 
 
 def _rise(block: Block, name: str) -> Float1D:
     """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
-    value, _ = _held(block, name)
+    value, _ = _kept(_held, block, name)
     if not len(value):
         return value
     logged = np.asarray(block.test.values[name], dtype=np.float64)

@@ -52,9 +52,9 @@ def with_context(
         if not pool:
             break
         last = rank_in(beside(problem, [*chosen, *context]), pool, noise, left_out=False)
-        found = in_noise_of_best(last, TRIED)
+        found = in_noise_of_best(last, TRIED, WORTH)
         best = None if found is None else preferred(found.ranked)
-        if found is None or best is None or found.worth < WORTH:
+        if found is None or best is None:
             break
         best = found.scored(best)
         tried = [*chosen, *context, best]

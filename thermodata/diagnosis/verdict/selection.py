@@ -155,9 +155,9 @@ def _forward(
     """Adds to the chosen while the evidence is worth it. last: the ranking beside them."""
     while len(chosen) < MOST:
         # what the first pass dropped is small beside what it kept: the noise hides no more causes
-        found = in_noise_of_best(last, TRIED if not dropped else 1)
+        found = in_noise_of_best(last, TRIED if not dropped else 1, WORTH)
         best = None if found is None else preferred(found.ranked)
-        if found is None or best is None or found.worth < WORTH:
+        if found is None or best is None:
             return
         base, best = found.known, found.scored(best)
         chosen.append(best)
@@ -198,7 +198,7 @@ def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[
     left, found = list(members), {id(one): one.evidence for one in members}
     while len(left) > 1:
         left.remove(min(left, key=lambda s: found[id(s)]))
-        for one, again in zip(left, each_beside_others(problem, left, noise), strict=True):
+        for one, again in zip(left, each_beside_others(problem, left, noise, left_out=False), strict=True):
             found[id(one)] = again.evidence
     return [found[id(one)] for one in members]
 

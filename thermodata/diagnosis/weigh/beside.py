@@ -40,12 +40,16 @@ def _as_known(made: Columns, weighed: Weighed) -> tuple[Float2D, Float2D]:
     return own, np.hstack(spare)
 
 
-def each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:
-    """In the noise beside all: what is left once nothing is missing, which is what tells rivals apart."""
+def each_beside_others(
+    problem: Problem, chosen: Sequence[Scored], noise: Noise, *, left_out: bool = True
+) -> list[Scored]:
+    """In the noise beside all: what is left once nothing is missing, which is what tells rivals apart. left_out:
+    whether the tests that are left out are asked."""
     found = []
     for one in chosen:
         others = [c for c in chosen if c is not one]
-        found.append(weighed_beside(rank_in(beside(problem, others), [one.columns], noise).ranked[0], others))
+        alone = rank_in(beside(problem, others), [one.columns], noise, left_out=left_out).ranked[0]
+        found.append(weighed_beside(alone, others))
     return found
 
 

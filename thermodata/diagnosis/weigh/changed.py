@@ -6,6 +6,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import SpecError
@@ -71,6 +73,11 @@ class ChangedEffect(CandidateEffect, ABC):
     @property
     def within(self) -> str:
         return self.term.id
+
+    def in_tests(self, tests: Sequence[TestData], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
+        """See `CandidateEffect.in_tests`; test by test, for what it does is no basis of drivers alone."""
+        each = [self.in_test(test) for test in tests]
+        return [np.concatenate([at(p) for p in points], axis=1) for at in each]
 
     @abstractmethod
     def in_words(self, scored: Scored) -> str:

@@ -161,7 +161,16 @@ def each_of_all(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
             if id(one) not in kept:  # the same, whatever is known
                 kept[id(one)] = one, _squares(white, one)
             cross = known.space.product(white, known.both).reshape(*one.whole.shape[1:], -1)
-            yield Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
+            known.of_all[id(one)] = one, Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
+            yield known.of_all[id(one)][1]
+
+
+def _of_all(known: Known, columns: Columns) -> Moments:
+    """Of all tests together: as they were made for a ranking, or made."""
+    if id(columns) not in known.of_all:
+        list(each_of_all(known, [columns]))
+    found: Moments = known.of_all[id(columns)][1]
+    return found
 
 
 def _squares(white: Float2D, columns: Columns) -> FloatND:
@@ -223,7 +232,8 @@ def of_each_series(known: Known, columns: Columns, series: Float2D, already: Flo
     """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,). already: what is `explained` of
     them."""
     count = series.shape[1]
-    (white,), (products,) = _whites(known, [columns]), each_of_all(known, [columns])
+    (white,) = _whites(known, [columns])
+    products = _of_all(known, columns)
     left, _ = beyond_known(known, products, known.every)
     right = known.space.product(white, series).reshape(*columns.whole.shape[1:], count)
     right -= products.known @ already

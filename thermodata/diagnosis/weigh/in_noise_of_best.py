@@ -23,13 +23,11 @@ TRIED = 5  # candidates beside which the noise is estimated
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """All candidates, ranked in the noise that is left beside the best of them. worth: what this one adds to the log
-    evidence."""
+    """All candidates, ranked in the noise that is left beside the best of them."""
 
     known: Known
     ranked: tuple[Scored, ...]
     best: Columns
-    worth: float
 
     def scored(self, one: Scored) -> Scored:
         """One of those ranked, with what left-out tests say of it."""
@@ -38,9 +36,10 @@ class Found:
         return score(self.known, one.columns, one.weighed)
 
 
-def in_noise_of_best(last: Ranked, tried: int) -> Found | None:
+def in_noise_of_best(last: Ranked, tried: int, least: float = -np.inf) -> Found | None:
     """What is missing makes the noise large, and in a large noise the right candidate hardly stands out: so beside each
-    of the first ones the noise is estimated anew."""
+    of the first ones the noise is estimated anew. None where the best of them adds less than `least` to the log
+    evidence: then no other is asked in its noise."""
     base = last.known
     some = different(last.ranked)[:tried]
     some = [s for s in some if s.evidence >= STANDS * some[0].evidence]
@@ -49,11 +48,11 @@ def in_noise_of_best(last: Ranked, tried: int) -> Found | None:
         worth = known(beside(base.problem, [one]), noise).log_evidence - base.log_evidence
         if found is None or worth > found[0]:
             found = worth, noise, one
-    if found is None:
+    if found is None or found[0] < least:
         return None
-    worth, noise, one = found
+    _, noise, one = found
     again = rank_in(base.problem, [s.columns for s in last.ranked], noise, left_out=False)
-    return Found(again.known, again.ranked, one.columns, worth)
+    return Found(again.known, again.ranked, one.columns)
 
 
 def likeliest_beside(problem: Problem, some: Sequence[Scored], start: Noise) -> list[Noise]:

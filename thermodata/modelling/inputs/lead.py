@@ -6,12 +6,12 @@ constants. The cycle that the log shows first is put before it, so that the lag 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from thermodata.effect.guard import guarded_basis, read_only
+from thermodata.effect.guard import guarded_bases, guarded_basis, read_only
 from thermodata.modelling.inputs.drivers import CYCLE_S, cycle_mean, make_drivers
 from thermodata.plugin import Drivers, Effect, Float1D, Float2D
 from thermodata.view.grid.dataset import TestData
@@ -53,6 +53,14 @@ def columns(effect: Effect, led: tuple[Drivers, int], params: Mapping[str, float
     """The effect's basis on the test's own rows, shape (n, gains). EffectError: see `guarded_basis`."""
     drivers, lead = led
     return guarded_basis(effect, drivers, params)[lead:]
+
+
+def columns_of_each(
+    effect: Effect, led: Sequence[tuple[Drivers, int]], points: Sequence[Mapping[str, float]]
+) -> list[Float2D]:
+    """The same in each of several tests, at several points side by side, shape (n, points * gains) each."""
+    found = guarded_bases(effect, [drivers for drivers, _ in led], points)
+    return [own[lead:] for own, (_, lead) in zip(found, led, strict=True)]
 
 
 def _period(values: Float1D, step: float) -> int:

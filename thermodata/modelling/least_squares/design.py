@@ -127,8 +127,9 @@ class Design:
         key = id(term.effect), term.reading, phases, of.tests, of.factors, values
         if key not in self._kept:
             made = np.zeros((self.n, len(term.effect.gains)), order="F")
-            for k, j in enumerate(of.tests):
-                own = self.nuisance[j].without(term.columns(self.tests[j], params)[self._counted[j]])
+            found = term.columns_of_each([self.tests[j] for j in of.tests], params)
+            for k, (j, whole) in enumerate(zip(of.tests, found, strict=True)):
+                own = self.nuisance[j].without(whole[self._counted[j]])
                 made[self.parts[j]] = own * params.get(factor(of.factors[k]), 1.0) if of.factors else own
             if (len(self._kept) + 1) * made.nbytes > KEPT_BYTES:
                 self._kept.clear()

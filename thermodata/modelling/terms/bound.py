@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from thermodata.errors import EffectError, unknown_name
 from thermodata.modelling.inputs.drivers import has_drivers, names_of
-from thermodata.modelling.inputs.lead import columns, led_drivers
+from thermodata.modelling.inputs.lead import columns, columns_of_each, led_drivers
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.of_tests import OfTests
@@ -93,6 +93,16 @@ class BoundTerm:
             except EffectError as error:
                 raise error.at(f"effect '{self.id}' of {error.origin}, test '{test.campaign}/{test.test}'") from error
         return self.while_acting(test, found)
+
+    def columns_of_each(self, tests: Sequence[TestData], params: Mapping[str, float]) -> list[Float2D]:
+        """The same of several tests."""
+        try:
+            if isinstance(self.effect, OfTests) or not all(self.covers(t) for t in tests):
+                return [self.columns(t, params) for t in tests]
+            found = columns_of_each(self.effect, [self._kept(t)[2] for t in tests], [params])
+        except EffectError:  # one after the other, it is told in which test
+            return [self.columns(t, params) for t in tests]
+        return [self.while_acting(t, own) for t, own in zip(tests, found, strict=True)]
 
     def while_acting(self, test: TestData, found: Float2D) -> Float2D:
         """Columns of the whole test, shape (n, k), as far as the term's phases last."""

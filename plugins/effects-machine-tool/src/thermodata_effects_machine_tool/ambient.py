@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from thermodata.effect.lag import lag, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import Lagged, column, gain, tau
+from .shared import FastAndSlow, Lagged, column, gain, tau
 
 _HALL = (Need("temperature", "temperature", ("hall.*",)),)
 
@@ -33,7 +32,7 @@ class AmbientFrame(Lagged):
     gains = (gain("um/K", 0.1, 15, "displacement at rest a kelvin of the hall"),)
 
 
-class AmbientSkin:
+class AmbientSkin(FastAndSlow):
     """Thin parts follow the air before the frame does; the difference fades.
 
         d = k (F_tau_fast{dT} - F_tau_slow{dT})
@@ -58,9 +57,8 @@ class AmbientSkin:
     )
     gains = (gain("um/K", 0.1, 15, "displacement a kelvin between skin and frame"),)
 
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        u, step = drivers.values["temperature"], step_of(drivers)
-        return column(lag(u, p["tau_fast"] * 60, step) - lag(u, p["tau_slow"] * 60, step))
+    def modes(self, fast: Float1D, slow: Float1D) -> Float2D:
+        return column(fast - slow)
 
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
         """The same as a formula; see `thermodata.effect.law`."""

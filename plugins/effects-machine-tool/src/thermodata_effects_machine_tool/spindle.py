@@ -6,11 +6,21 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from thermodata.effect.lag import lag, lag_along, step_of
+from thermodata.effect.lag import lag_along, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import MOTOR_HEAT, REFERENCE_SPEED_RPM, Lagged, column, exponent, gain, power_of, tau
+from .shared import (
+    MOTOR_HEAT,
+    REFERENCE_SPEED_RPM,
+    FastAndSlow,
+    Lagged,
+    column,
+    exponent,
+    gain,
+    power_of,
+    tau,
+)
 
 BEARING_FRICTION = "bearing friction"  # one heat, read by its temperature or its speed: `cause` of these effects
 
@@ -37,7 +47,7 @@ class SpindleBearing(Lagged):
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
 
-class SpindleBearing2:
+class SpindleBearing2(FastAndSlow):
     """The spindle grows in two modes: shaft and bearings, then the housing.
 
         d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}
@@ -62,9 +72,8 @@ class SpindleBearing2:
     )
     gains = (gain("um/K", 0, 40, "fast part", "gain_fast"), gain("um/K", 0, 40, "slow part", "gain_slow"))
 
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        u, step = drivers.values["temperature"], step_of(drivers)
-        return np.column_stack([lag(u, p["tau_fast"] * 60, step), lag(u, p["tau_slow"] * 60, step)])
+    def modes(self, fast: Float1D, slow: Float1D) -> Float2D:
+        return np.column_stack([fast, slow])
 
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
         """The same as a formula; see `thermodata.effect.law`."""
@@ -203,7 +212,7 @@ class SpindleHeatingCooling:
         return ("lag(temperature, where(abs(speed) > 1, tau_on, tau_off))",)
 
 
-class SpeedDependentGain:
+class SpeedDependentGain(Lagged):
     """The gain of the bearing's temperature changes with the speed.
 
         d = k F_tau{dT n / 10000 rpm}
@@ -227,9 +236,8 @@ class SpeedDependentGain:
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0, 20, "change of the gain at 10000 rpm"),)
 
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        u = drivers.values["temperature"] * drivers.values["speed"] / REFERENCE_SPEED_RPM
-        return column(lag(u, p["tau"] * 60, step_of(drivers)))
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        return drivers.values["temperature"] * drivers.values["speed"] / REFERENCE_SPEED_RPM
 
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
         """The same as a formula; see `thermodata.effect.law`."""
