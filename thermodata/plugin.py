@@ -233,12 +233,14 @@ class Effect(Protocol):
     name: an identifier, the one of its entry point. family: effects of one cause share it; `{a}` in it is filled in
     from the places that its drivers sit at. meaning: a sentence. source: where equation and bounds come from.
 
-    It may have five attributes more, which no effect needs (`thermodata.effect.describe` reads them):
+    It may have six attributes more, which no effect needs (`thermodata.effect.describe` reads them):
     `equation: str`, in plain text with F_tau{u} for a first-order lag; by default the first line of its class's
     docstring that holds " = ". `telltale: str`, how a residual looks where the effect is missing, and what test tells
     it from its like. `refines: tuple[str, ...]`, names of effects that it refines: diagnosis asks for it only where
     the model has one of them. `told_by: str`, a position of its own that tells it from these: where its moves make
-    steps diagnosis asks for it without them, too. `asked: bool`, False where diagnosis does not ask for it by itself.
+    steps diagnosis asks for it without them, too. `closed_by: str`, the feedback of its axis
+    (`machine.axes.X.feedback`) behind which it does not reach the tool: where that is declared diagnosis does not ask
+    for it. `asked: bool`, False where diagnosis does not ask for it by itself.
 
     And one method more, `bases(several, points) -> Sequence[Float2D]`, for effects that do many at once at the cost of
     few: of each `Drivers` of several, shape (n, points * gains), what `basis` gives at each point, side by side, to the

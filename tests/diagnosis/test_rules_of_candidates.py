@@ -401,6 +401,7 @@ def test_one_heat_read_elsewhere_is_told_in_any_family(other: str, expected: str
     assert {e.name for e in effects().values() if getattr(e, "cause", "") == "cutting heat"} == {
         "cutting_load",
         "cutting_power",
+        "cutting_torque",
         "workpiece",
     }
 

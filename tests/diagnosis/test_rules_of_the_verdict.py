@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
+from thermodata.diagnosis.claims.refines import PART
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, parts_offered
 from thermodata.diagnosis.verdict.selection import Member, Selection
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.ranking import Ranked
@@ -387,3 +388,26 @@ def test_the_unknown_says_why_the_best_was_refused() -> None:
     assert found.verdict == "unknown"
     assert "the best, hopeless:T_a, fails because in the 10 tests in which it acts" in found.reason
     assert "1 um remain on left-out tests" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("kin", "after", "expected", "offered"),
+    [
+        ("part", 0.25, "refine", ["air"]),  # with it a good model is left
+        ("part", 0.75, "unknown", ["air"]),
+        ("near", 0.25, "unknown", []),
+    ],
+)
+def test_what_the_model_reads_with_others_is_offered_where_nothing_can_be_named(
+    kin: Any, after: float, expected: str, offered: list[str]
+) -> None:
+    """Sharp enough to be no refinement, and too little for a claim: in between it was neither."""
+    made = selection(scored("air", kin=kin, evidence=60.0, before=1.6, after=1.6 * after))
+    size = measure(spread=2.0, floor=0.1)
+    open_still = judge(of_tests(5), made, size, lambda s: None)
+    assert (open_still.verdict, names(open_still.refinements)) == ("unknown", [])
+    found = parts_offered(open_still, lambda judged: concluded(of_tests(5), made, size, judged))
+    assert (found.verdict, names(found.refinements)) == (expected, offered)
+    assert all(j.refines == PART for j in found.refinements)
+    refused = replace(open_still, refused=open_still.judged)
+    assert parts_offered(refused, lambda judged: open_still) is refused, "the locked tests do not bear it out"

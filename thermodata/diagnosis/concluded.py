@@ -13,7 +13,7 @@ from thermodata.diagnosis.tell.in_version import told_by_versions
 from thermodata.diagnosis.tell.together import Refit, left_with_named, told_alike
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, parts_offered
 from thermodata.plugin import Float1D
 
 
@@ -40,9 +40,11 @@ def concluded(case: Case, left_on_locked: float | None) -> Concluded:
     opened = unlocked(case.investigated, case.fits, case.locked)
     investigation, judgement = opened.investigation, opened.judgement
     confirmation = _confirmed(case, opened) if judgement.claims else None
+    on_locked = False
     if not judgement.claims:
-        judgement = contradicted(judgement, left_on_locked, case.response, case.locked)
-    on_locked = judgement is not opened.judgement
+        by_open = parts_offered(judgement, investigation.conclude)
+        judgement = contradicted(by_open, left_on_locked, case.response, case.locked)
+        on_locked = judgement is not by_open
     stands = None
     if judgement.verdict in ("none", "refine"):
         stands = as_modelled(

@@ -59,8 +59,8 @@ class Solved:
 @dataclass(frozen=True, slots=True)
 class Description:
     """An effect's own account of itself. equation, telltale: None where the effect states none. told_by: the role
-    whose moves tell it from what it refines. asked: whether diagnosis asks for it by itself. text: its class's
-    docstring."""
+    whose moves tell it from what it refines. closed_by: the feedback of its axis that keeps it from the tool. asked:
+    whether diagnosis asks for it by itself. text: its class's docstring."""
 
     name: str
     family: str
@@ -70,6 +70,7 @@ class Description:
     source: str
     refines: tuple[str, ...]
     told_by: str | None
+    closed_by: str | None
     asked: bool
     roles: tuple[Role, ...]
     parameters: tuple[Searched, ...]
@@ -88,6 +89,7 @@ def describe(effect: Effect) -> Description:
         source=effect.source,
         refines=tuple(getattr(effect, "refines", ())),
         told_by=getattr(effect, "told_by", None),
+        closed_by=getattr(effect, "closed_by", None),
         asked=bool(getattr(effect, "asked", True)),
         roles=tuple(
             Role(n.role, n.quantity, CANONICAL_UNIT.get(n.quantity), tuple(n.places), n.optional) for n in effect.needs

@@ -91,6 +91,8 @@ def _section(d: Description) -> str:
         facts.insert(1, ("Refines", ", ".join(f"[{n}](#{n})" for n in d.refines)))
     if d.told_by:
         facts.insert(2, ("Asked alone", f"where moves of the {d.told_by} make steps"))
+    if d.closed_by:
+        facts.append(("Diagnosis", f"does not ask for it where the axis is declared to have `feedback: {d.closed_by}`"))
     if not d.asked:
         facts.append(("Diagnosis", "does not ask for it by itself: a model file names it"))
     parts.append("".join(f"- {name}: {value}\n" for name, value in facts))

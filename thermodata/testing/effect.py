@@ -23,6 +23,7 @@ from thermodata.effect.law_run import evaluate
 from thermodata.effect.places import can_bind
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Effect, Float1D
+from thermodata.schema.files.campaign import FEEDBACKS
 from thermodata.schema.units.quantity import QUANTITIES
 from thermodata.testing.effect_drivers import FINER, STEP_S, on_finer_grid, shortened, start, variants
 
@@ -84,6 +85,9 @@ def what_it_states_beyond_the_contract_is_text(effect: Effect) -> Iterator[str]:
     told_by = getattr(effect, "told_by", None)
     if told_by is not None and told_by not in [n.role for n in effect.needs]:
         yield f"'told_by' is {told_by!r}, and no role of its own"
+    closed_by = getattr(effect, "closed_by", None)
+    if closed_by is not None and closed_by not in FEEDBACKS:
+        yield f"'closed_by' is {closed_by!r}, and no feedback of an axis: {', '.join(FEEDBACKS)}"
 
 
 def its_names_are_unique(effect: Effect) -> Iterator[str]:

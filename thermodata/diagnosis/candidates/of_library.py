@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.feedback import is_kept_from_the_tool
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.unread import Part, is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.diagnosis.candidates.warm_at_rest import is_at_table, turns
@@ -149,9 +150,11 @@ def candidates(
     response: str,
     telling: Container[str] = (),
     at_rest: Container[str] = (),
+    feedback: Mapping[str, str] | None = None,
 ) -> list[CandidateEffect]:
     """What could be missing. present: what the model has. telling: positions that make steps where they go from one
-    place to another. at_rest: temperatures of tables that are as warm where nothing turns them. Every channel is asked
+    place to another. at_rest: temperatures of tables that are as warm where nothing turns them. feedback: axis -> what
+    closes its loop, where that is declared. Every channel is asked
     as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are looked for within
     tests, not here."""
     own = tuple(present)
@@ -171,7 +174,7 @@ def candidates(
     if response in channels and channels[response].quantity == "temperature":
         known |= {part for part in [part_of(channels[response].at)] if part}
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
-    beside = _Beside(library, usable, model, plain, frozenset(known), placed, telling, at_rest)
+    beside = _Beside(library, usable, model, plain, frozenset(known), placed, telling, at_rest, feedback or {})
     # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
     asked = [e for e in library.values() if not (e.family == "artefact" or not e.needs or e.name == STATIC)]
     found = [beside.candidate(e, binding) for e in asked for binding in bindings(e, usable)]
@@ -182,7 +185,7 @@ def candidates(
 class _Beside:
     """What each effect is held against. usable: channels that may drive one. model: what is there already; plain: the
     functions without a name in it; known: the parts that it has. placed: whether any temperature has a place. telling,
-    at_rest: as `candidates` has them."""
+    at_rest, feedback: as `candidates` has them."""
 
     library: Mapping[str, Effect]
     usable: Mapping[str, ChannelInfo]
@@ -192,13 +195,16 @@ class _Beside:
     placed: bool
     telling: Container[str]
     at_rest: Container[str]
+    feedback: Mapping[str, str]
 
     def candidate(self, effect: Effect, binding: Mapping[str, str]) -> CandidateEffect | None:
-        """An effect by some channels; None where it is not asked: the model has it, it refines nothing, or it would
-        have to rub where nothing does."""
+        """An effect by some channels; None where it is not asked: the model has it, it refines nothing, it would have
+        to rub where nothing does, or it does not reach the tool."""
         usable, placed = self.usable, self.placed
         names, family = frozenset(binding.values()), family_of(effect, binding, usable)
         if self._is_there(effect, names) or self._refines_nothing(effect, binding, family):
+            return None
+        if is_kept_from_the_tool(effect, [usable[n] for n in names], self.feedback):
             return None
         nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, self.at_rest)]
         if not nameless and len(bodies) == len(names):

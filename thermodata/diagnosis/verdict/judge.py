@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.diagnosis.claims.measure import FLOOR_SHARE, Measure
 from thermodata.diagnosis.claims.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.claims.refinement import is_surely_missing
+from thermodata.diagnosis.claims.refines import PART
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, blunt, contradicts, failed_rules, halves, is_plain, rules
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.question.problem import Problem
@@ -144,6 +145,17 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
         f"logged may be named for them{because}"
     )
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
+
+
+def parts_offered(found: Judgement, conclude: Callable[[tuple[Judged, ...]], Judgement]) -> Judgement:
+    """The same, where nothing can be named: a sound member that the model reads already together with others, as the
+    air beside its gradient, is offered as more of that, for the tests can't tell which of both it is. conclude: judges
+    members anew."""
+    parts = [j for j in found.judged if j.refines is None and j.scored.candidate.kin == "part"]
+    if found.verdict != "unknown" or found.refused or not parts:
+        return found
+    offered = tuple(replace(j, refines=PART) if any(j is part for part in parts) else j for j in found.judged)
+    return conclude(offered)
 
 
 def _or_a_mode(j: Judged, refines: Callable[[Scored], str | None]) -> Judged:

@@ -7,7 +7,7 @@ Its parts stand in modules of their own: `campaign_sources`, `campaign_channels`
 from __future__ import annotations
 
 import re
-from typing import Literal
+from typing import Literal, get_args
 
 from pydantic import Field, field_validator
 
@@ -51,13 +51,17 @@ NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_]*$")
 RESERVED_NAMES = frozenset({"campaign", "test", "source", "t", "t_s"})
 
 
+Feedback = Literal["scale", "screw", "motor"]
+FEEDBACKS: tuple[str, ...] = get_args(Feedback)
+
+
 class Axis(Attributed):
     """`machine.axes.X`: a linear or rotary axis. Free attributes (`preload: 2.1 kN`) are conditions too.
 
     feedback: what closes the position loop; behind a scale the growth of the screw does not reach the tool
     """
 
-    feedback: Literal["scale", "screw", "motor"] | None = None
+    feedback: Feedback | None = None
 
 
 class Machine(Attributed):

@@ -37,6 +37,7 @@ class FeedScrew(Lagged):
     """
 
     name = "feed_screw"
+    closed_by = "scale"
     cause = SCREW_FRICTION
     family = "feed_{a}"
     meaning = "growth of the feed screw from friction: k F{dT of the nut}, or k F{|v/10 m/min|^p} without a sensor"
@@ -114,6 +115,7 @@ class ScrewGrowth(GrowsWithPosition):
     """
 
     name = "screw_growth"
+    closed_by = "scale"
     refines = ("feed_screw",)
     told_by = "position"
     family = "feed_{a}"

@@ -54,6 +54,7 @@ class ScrewPower(Lagged):
     """
 
     name = "screw_power"
+    closed_by = "scale"
     cause = SCREW_FRICTION
     family = "feed_{a}"
     meaning = "growth of the feed screw from the power that moves the axis: k F{|M v|}, of its motor's torque"
