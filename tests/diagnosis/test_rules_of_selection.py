@@ -15,7 +15,14 @@ from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict import context as contexts
 from thermodata.diagnosis.verdict import selection as selecting
-from thermodata.diagnosis.verdict.preference import better_twin, gives_way, its_name, preferred, what_warms_it
+from thermodata.diagnosis.verdict.preference import (
+    better_twin,
+    gives_way,
+    its_name,
+    preferred,
+    read_alone,
+    what_warms_it,
+)
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
 from thermodata.diagnosis.weigh import beside as besides
 from thermodata.diagnosis.weigh import in_noise_of_best as noises
@@ -830,3 +837,28 @@ def test_three_rivals_end_the_search(
 
     found = Worlds(monkeypatch, evidence).select("au" + rivals, lambda s: name(s) == "a")
     assert (members(found), bool(found.context)) == (["a"], stands)
+
+
+AIR = {"kin": "part", "around": True, "evidence": 300.0, "family": "ambient", "shape": (1.0, 0.0)}
+
+
+@pytest.mark.parametrize(
+    ("own", "other", "taken"),
+    [
+        ({}, {}, True),
+        ({"evidence": 5000.0}, {}, False),  # so sharp, it is a claim itself
+        ({"kin": "near"}, {}, False),
+        ({}, {"kin": "part"}, False),  # the model reads that one, too
+        ({}, {"evidence": 60.0}, False),  # which may not be claimed either
+        ({}, {"shape": (0.8, 0.6)}, False),  # and does not act alike
+    ],
+)
+def test_a_sensor_that_the_model_does_not_read_stands_for_one_that_it_reads_with_others(
+    own: dict[str, Any], other: dict[str, Any], taken: bool
+) -> None:
+    reads = scored("frame", channels=("T_low",), **{**AIR, **own})
+    alone = scored("frame", channels=("T_mid",), **{**AIR, "kin": "near", "evidence": 200.0, **other})
+    another = scored("sun", channels=("G",), **{**AIR, "kin": None, "evidence": 290.0})
+    found = read_alone(reads, [reads, another, alone])
+    assert (found is alone) is taken
+    assert found in (alone, None)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.candidates.kin import refines
-from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.refinement import is_surely_missing
 from thermodata.diagnosis.question.present import CONTROL, GENERIC, TIME_UNITS
 from thermodata.diagnosis.weigh.ranking import Ranked
@@ -115,6 +115,26 @@ def what_warms_it(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
             and s.evidence >= own.evidence
             and abs(float(own.shape @ s.shape)) > TWIN
             and probability(s) >= probability(own)
+        ),
+        None,
+    )
+
+
+def read_alone(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
+    """Beside what may not be claimed, for the model reads it already together with others: the likeliest that is the
+    same effect by a channel of its own, acts alike, and may be claimed. Of three sensors in one air the gradient of the
+    model reads two."""
+    if own.candidate.kin != "part" or probability(own) >= limit_of(own):
+        return None
+    return next(
+        (
+            s
+            for s in ranked
+            if len(s.shape)
+            and s.candidate.kin != "part"
+            and s.candidate.effect.name == own.candidate.effect.name
+            and abs(float(own.shape @ s.shape)) > TWIN
+            and probability(s) >= limit_of(s)
         ),
         None,
     )

@@ -16,7 +16,14 @@ from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import known, likeliest
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.context import MOST, WORTH, Together, with_context
-from thermodata.diagnosis.verdict.preference import better_twin, gives_way, its_name, preferred, what_warms_it
+from thermodata.diagnosis.verdict.preference import (
+    better_twin,
+    gives_way,
+    its_name,
+    preferred,
+    read_alone,
+    what_warms_it,
+)
 from thermodata.diagnosis.weigh.beside import beside, each_beside_others, weighed_beside, without
 from thermodata.diagnosis.weigh.difference import with_sides
 from thermodata.diagnosis.weigh.evidence import Columns, columns
@@ -220,15 +227,15 @@ def _member(
 ) -> Member:
     """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is preferred to
     it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
-    the name foretells left-out tests better; or for a twin that does so much better, that warms what it reads, or that
-    is its name."""
+    the name foretells left-out tests better; or for a twin that the model does not read, that does so much better, that
+    warms what it reads, or that is its name."""
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without(every, others), noise)
     eligible = _only(ranking, among)
     best = preferred(eligible.ranked)
     if best is not None and gives_way(own, best, eligible) and sound(best):
         own = _in_place_of(own, best, others)
-    for one in (better_twin, what_warms_it, its_name):
+    for one in (read_alone, better_twin, what_warms_it, its_name):
         twin = one(own, eligible.ranked)
         if twin is not None and sound(twin):
             own = _in_place_of(own, twin, others)
