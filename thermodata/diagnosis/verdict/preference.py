@@ -131,7 +131,6 @@ def read_alone(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
             s
             for s in ranked
             if len(s.shape)
-            and s.candidate.kin != "part"
             and s.candidate.effect.name == own.candidate.effect.name
             and abs(float(own.shape @ s.shape)) > TWIN
             and probability(s) >= limit_of(s)
