@@ -367,7 +367,7 @@ def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_count
     chosen = json.loads(say("--store", store, "confirm", base, "feed_screw:T_nut_Z", "--json").out)
     assert (chosen["candidate"], chosen["holds"], chosen["looks"]) == ("feed_screw:T_nut_Z", True, 1)
     assert (chosen["holds_by_shape"], chosen["tests"][0]["n"]) == (True, 360)
-    assert chosen["why"] == "the error falls by what a cause of its size takes away"
+    assert chosen["why"] == "about each test's mean the error falls by what a cause of its size takes away"
     assert chosen["locked_rmse_um_after"] < 0.5 * chosen["locked_rmse_um_before"]
     assert [t["test"] for t in chosen["tests"]] == ["day2"]
     assert chosen["tests"][0]["rmse_um_after"] == pytest.approx(chosen["locked_rmse_um_after"])

@@ -37,7 +37,8 @@ def confirmed(*tests: tuple[float, float, bool, int | None], **more: object) -> 
     [
         ([(3.02, 4.24, True, 100)], True, False, rules.IN_SHAPE_ONLY),
         ([(3.02, 3.09, True, 100)], True, False, rules.IN_SHAPE_ONLY),
-        ([(3.02, 3.07, True, 100)], True, True, rules.HOLDS),
+        ([(3.02, 3.07, True, 100)], True, True, rules.HOLDS + rules.AS_SCORED),
+        ([(3.02, 3.01, True, 100)], True, True, rules.HOLDS),
         ([(3.02, 1.0, True, 100)], True, True, rules.HOLDS),
         ([(3.02, 1.0, True, 100)], False, False, rules.FALLS_SHORT),
         ([(3.02, 4.24, True, 100)], None, None, rules.RESTS),

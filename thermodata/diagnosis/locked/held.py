@@ -8,7 +8,8 @@ from thermodata.diagnosis.weigh.foretold import LEAST
 from thermodata.schema.answers.confirmed import Confirmed, TestConfirmed
 
 RESTS = "it hardly acts in the locked tests, so they say nothing of it"
-HOLDS = "the error falls by what a cause of its size takes away"
+HOLDS = "about each test's mean the error falls by what a cause of its size takes away"
+AS_SCORED = "; counted from its first samples, as tests are scored, it does not fall"
 FALLS_SHORT = "about each test's mean the error falls by less than a cause of its size takes away"
 RISES = "the error rises"
 RISES_ELSEWHERE = "; over all locked tests the error rises, in those in which it acts least: they say nothing of it"
@@ -28,7 +29,8 @@ def held(result: Confirmed, by_shape: bool | None) -> Confirmed:
         holds, why = None, RESTS
     elif by_shape:
         elsewhere = RISES_ELSEWHERE if _rises(result.tests) else ""
-        holds, why = not rises, IN_SHAPE_ONLY if rises else HOLDS + elsewhere
+        level = AS_SCORED if not elsewhere and not _falls([t for t in result.tests if t.acts]) else ""
+        holds, why = not rises, IN_SHAPE_ONLY if rises else HOLDS + level + elsewhere
     else:
         falls = before is None or after is None or after < before
         holds, why = False, FALLS_SHORT if falls else RISES
@@ -43,6 +45,17 @@ def as_held(known: Confirmed) -> Confirmed:
 def _rises(tests: Sequence[TestConfirmed]) -> bool:
     """Whether the error as scored rises by as much as counts for a fall. Tests weigh by their samples, alike where
     an older answer does not say how many."""
+    before, after = _squares(tests)
+    return after > (1 + LEAST) ** 2 * before
+
+
+def _falls(tests: Sequence[TestConfirmed]) -> bool:
+    before, after = _squares(tests)
+    return after < before
+
+
+def _squares(tests: Sequence[TestConfirmed]) -> tuple[float, float]:
+    """Sums of squared errors as scored, before and after."""
     before = sum(t.rmse_um_before**2 * (t.n or 1) for t in tests)
     after = sum(t.rmse_um_after**2 * (t.n or 1) for t in tests)
-    return after > (1 + LEAST) ** 2 * before
+    return before, after

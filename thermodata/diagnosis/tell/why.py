@@ -98,7 +98,8 @@ def _not_claimed(told: Told, outcome: Outcome) -> str:
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
     if not beside and all(errors_of_all(s)[1] < errors_of_all(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
-        return f"it keeps the rules by itself, and {listed(names)} {were} chosen without it"
+        rules = "the rules" if blunt(s) is None else "all rules but that of the probability"
+        return f"it keeps {rules} by itself, and {listed(names)} {were} chosen without it"
     if judgement.claims:
         return f"{judgement.claims[0].scored.candidate.id} explains it, or more"
     if judgement.refused:
