@@ -25,6 +25,7 @@ class Reader:
         "MTConnect streams (XML)",
         "MTConnect SHDR",
         "OPC UA and SIMATIC long tables",
+        "lines of JSON: MQTT, Telegraf, Industrial Edge",
     )
 
     @property
