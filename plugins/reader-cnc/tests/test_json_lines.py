@@ -206,7 +206,7 @@ def test_what_is_not_claimed(lines: list[str]) -> None:
 
 @pytest.mark.parametrize("text", ["[" * 100 + "]" * 100, '{"a": ' * 60 + "1" + "}" * 60, '"' + "x" * (1 << 20) + '"'])
 def test_texts_beyond_the_limits_are_refused(text: str) -> None:
-    with pytest.raises(ValueError, match="brackets|longer"):
+    with pytest.raises(ValueError, match=r"brackets|longer"):
         loads(text)
 
 

@@ -20,6 +20,7 @@ class Reader:
         "CSV exports of a control (German, Czech, English)",
         "Sinumerik Trace XML",
         "Sinumerik Trace CSV",
+        "SINUMERIK Edge (Capture4Analysis, JSON)",
         "Heidenhain TNCscope (.sco)",
         "TwinCAT Scope text export",
         "MTConnect streams (XML)",
