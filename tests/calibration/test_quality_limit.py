@@ -47,6 +47,32 @@ def test_codes_of_several_kinds_are_told_beside_each_other(beside: float) -> Non
     assert np.flatnonzero(flags["dZ"] & Flag.OUT_OF_RANGE).tolist() == [100, 101, 102, 200, 201, 202]
 
 
+@pytest.mark.parametrize(
+    "code",
+    [
+        *(-99999.99999, 99999.99999, -9999.0, -9999.99, 999999.0, -999.0, -999.99, float(np.float32(999.9))),
+        *(9.9e37, -9.9e37, 9.91e37, 1e308, -1e308),
+    ],
+)
+@pytest.mark.parametrize("quantity", ["displacement", "temperature", "pressure"])
+@pytest.mark.filterwarnings("error")
+def test_no_value_of_an_instrument_is_none(code: float, quantity: str) -> None:
+    """9.9E+37 is SCPI's overload, 9.91E+37 its "not a number"; the others are what programs write for nothing."""
+    x = noisy() / 20 + 25
+    x[100:103] = code
+    flags, events = run(clock(), x=(quantity, x))
+    assert np.flatnonzero(flags["x"] & Flag.OUT_OF_RANGE).tolist() == [100, 101, 102]
+    assert [e.n for e in events if e.flag == "out_of_range"] == [3]
+
+
+@pytest.mark.parametrize("value", [-999.0, 99999.99999])
+def test_a_reading_of_the_size_of_a_code_is_one(value: float) -> None:
+    x = np.linspace(0, 1.01 * value, N) + noisy(2)
+    x[3000] = value
+    flags, _ = run(clock(), p=("pressure", x))
+    assert not (flags["p"] & Flag.OUT_OF_RANGE).any()
+
+
 def test_what_passes_through_a_code_on_its_way_to_another_is_a_reading() -> None:
     x = np.linspace(0, 65535, N) + noisy(2)
     x[3000:3003], x[-1] = 32767.0, 65535.0

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.flags import flag_stream
-from thermodata.calibration.quality.range import ends_of_ranges
+from thermodata.calibration.quality.range import End, ends_of_ranges, plateau_at_extreme
 from thermodata.calibration.quality.still import Reading
 from thermodata.schema.flag import Flag
 
@@ -20,13 +20,13 @@ SOUND = replace(FINE, low=-30.9, high=55.1, high_n=1)
 
 def test_the_end_of_a_range_is_told_of_the_tests_that_come_to_it() -> None:
     found = ends_of_ranges({("day1", "dZ"): FINE, ("day2", "dZ"): LONG, ("day3", "dZ"): SOUND, ("day1", "dX"): SOUND})
-    assert found == {("day1", "dZ"): (None, 142.067), ("day2", "dZ"): (None, 142.067)}
+    assert found == {(f"day{k}", "dZ"): (None, End(142.067)) for k in (1, 2)}
 
 
 def test_the_lower_end_and_a_test_that_touches_it_once() -> None:
     low = replace(FINE, low=-140.5, low_n=40, high=3.2, high_n=1)
     found = ends_of_ranges({("day1", "dZ"): low, ("day2", "dZ"): low, ("day3", "dZ"): replace(low, low_n=1)})
-    assert found == {(f"day{k}", "dZ"): (-140.5, None) for k in (1, 2, 3)}
+    assert found == {(f"day{k}", "dZ"): (End(-140.5), None) for k in (1, 2, 3)}
 
 
 @pytest.mark.parametrize(
@@ -61,9 +61,50 @@ def test_what_is_flagged_at_an_end_that_other_tests_show() -> None:
     x[20:380], x[390:] = 142.067, -9999.0
     x[:20] = np.minimum(x[:20], 142.0)
     t_ns = np.arange(len(x), dtype=np.int64) * 10**9
-    column = ColumnInput(x, "displacement", np.zeros(len(x), np.uint16), at="tcp", limits=(-9999.0, 142.067))
+    column = ColumnInput(x, "displacement", np.zeros(len(x), np.uint16), at="tcp", limits=(End(-9999.0), End(142.067)))
     flags, _ = flag_stream(t_ns, {"dZ": column})
     saturated, no_value = (((flags["dZ"] & np.uint16(f)) != 0) for f in (Flag.SATURATED, Flag.OUT_OF_RANGE))
     assert saturated.tolist() == (x == 142.067).tolist()
     assert no_value[390:].all()
     assert not no_value[:390].any()
+
+
+NOISY = replace(FINE, low=-91.8, low_n=1, high=44.0, high_n=1, plateau=(-89.9, 0.5, -1))
+
+
+def test_two_tests_that_stand_on_one_level_within_their_noise_tell_an_end() -> None:
+    readings = {("day1", "dZ"): NOISY, ("day2", "dZ"): replace(NOISY, plateau=(-90.1, 0.5, -1)), ("day3", "dZ"): SOUND}
+    found = ends_of_ranges(readings)
+    assert set(found) == {("day1", "dZ"), ("day2", "dZ")}
+    assert found["day1", "dZ"] == (End(-90.1, 4.0), None)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        SOUND,  # one test alone
+        replace(NOISY, plateau=(-89.6, 0.5, -1)),  # lies elsewhere by more than half the noise: a shift by the speed
+        replace(NOISY, plateau=(-89.9, 0.5, 1)),  # another end
+        replace(NOISY, low=-99.0),  # goes beyond
+    ],
+)
+def test_plateaus_that_differ_are_no_end(other: Reading) -> None:
+    assert ends_of_ranges({("day1", "dZ"): NOISY, ("day2", "dZ"): other}) == {}
+
+
+def test_what_is_flagged_at_an_end_in_noise() -> None:
+    """A probe drifts to its end, and stands there for 40 min with the noise of its converter; then it comes back."""
+    rng = np.random.default_rng(3)
+    t = np.arange(0.0, 7200.0, 5.0)
+    course = np.where(t < 4800, -t / 20, -240 + (t - 4800) / 10)
+    x = np.round(np.maximum(course, -120.0) + rng.normal(0.0, 0.3, len(t)), 3)
+    end = plateau_at_extreme(t, x)
+    assert end is not None
+    column = ColumnInput(
+        x, "displacement", np.zeros(len(x), np.uint16), at="tcp", limits=(End(end.level, 8 * end.noise), None)
+    )
+    flags, events = flag_stream((t * 1e9).astype(np.int64), {"dZ": column})
+    saturated = (flags["dZ"] & np.uint16(Flag.SATURATED)) != 0
+    assert saturated[course < -120.0].all()
+    assert not saturated[course > -117.0].any()
+    assert any("lower limit -1" in e.detail and "as in other tests" in e.detail for e in events)

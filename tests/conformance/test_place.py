@@ -119,6 +119,15 @@ def _shdr() -> bytes:
     return "".join(f"{_stamp(i)}|T|{v}\n" for i, v in enumerate(VALUES)).encode()
 
 
+def _json_lines() -> bytes:
+    return "".join(f'{{"ts":"{_stamp(i)}","topic":"T","value":{v}}}\n' for i, v in enumerate(VALUES)).encode()
+
+
+def _json_value(path: Path, place: str) -> float:
+    line = path.read_text(encoding="utf-8").split("\n")[int(place.removeprefix("line ")) - 1]
+    return float(json.loads(line)["value"])
+
+
 def _opcua() -> bytes:
     return (
         "DateTime,TagName,TagVal,TagQuality\n"
@@ -274,6 +283,7 @@ CASES = {
     "control csv": Case("cnc", "log.csv", "T", _control, _line(1, ";")),
     "shdr": Case("cnc", "log.txt", "T", _shdr, _line(2, "|")),
     "opc ua": Case("cnc", "log.csv", "T", _opcua, _line(2, ",")),
+    "json lines": Case("cnc", "log.jsonl", "T", _json_lines, _json_value),
     "trace csv": Case("cnc", "log.csv", "/Nck/!SD/nckServoDataActCurr32 [u1; 1]", _trace_csv, _line(1, ",")),
     "trace xml": Case("cnc", "log.xml", "T", _trace_xml, _trace_value),
     "mcap": Case("mcap", "log.mcap", "/m.T", _mcap, _mcap_value),

@@ -54,6 +54,22 @@ def test_a_position_that_goes_with_the_range_is_a_rule(rail: float | None, tmp_p
     assert row["high"] < 60
 
 
+@pytest.mark.parametrize(("moves", "ruled"), [(True, True), (False, False)])
+def test_a_feed_that_stands_while_the_probe_has_a_reading_is_a_rule(
+    moves: bool, ruled: bool, tmp_path: Path, say: Say
+) -> None:
+    """moves: the axis feeds whenever the probe has none, else half of the time."""
+    cycles(tmp_path, state=True)
+    path = tmp_path / "feed_z.csv"
+    header, *rows = path.read_text("utf-8").splitlines()
+    cells = [row.split(",") for row in rows]
+    feeds = [0 if row[2] == "1" or (not moves and k % 2) else 8000 for k, row in enumerate(cells)]
+    lines = [",".join([*row[:2], str(f), row[3]]) for row, f in zip(cells, feeds, strict=True)]
+    path.write_text("\n".join([header.replace("probing active", "feed Z [mm/min]"), *lines, ""]), "utf-8")
+    say("init", tmp_path)
+    assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == ("feed_Z == 0" if ruled else None)
+
+
 def test_a_state_that_goes_with_the_range_is_a_rule(tmp_path: Path, say: Say) -> None:
     cycles(tmp_path, state=True)
     say("init", tmp_path)

@@ -307,7 +307,7 @@ MUTANTS = [
         "merged names are lost",
     ),
     text("names/described.py", "len(set(said.values())) < len(said)", "False", "a kind of input is a name"),
-    text("names/described.py", "    rows = rows[: names_at(rows, names)]\n", "", "a comment on sensors is a name"),
+    text("names/described.py", "    rows = rows[:at]\n", "", "a comment on sensors is a name"),
     text("names/described.py", "max(_FEWEST, len(names) // 2)", "1", "a comment on the file describes a channel"),
     text("rows/footer.py", "numbers = all(", "numbers = True or all(", "damage behind a word is no loss"),
     text("rows/footer.py", "(bool(others) and _STATISTIC", "(_STATISTIC", "a word alone is statistics"),

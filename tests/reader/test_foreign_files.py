@@ -193,17 +193,6 @@ def test_files_of_measuring_systems_say_what_to_export(tmp_path: Path, name: str
     assert (said.claims, said.advice) == ({}, None)
 
 
-def test_json_of_sinumerik_edge_says_its_name_and_what_to_export(tmp_path: Path) -> None:
-    signals = ", ".join(f'{{"Name": "ENC_POS|{k}", "Axis": "X", "Address": "ENC_POS|{k}"}}' for k in "12")
-    header = f'{{"Version": {{"RecorderVersion": "3.1.0"}}, "CycleTimeMs": "2", "SignalListHFData": [{signals}]}}'
-    rows = ", ".join(f"[{k}, 250.0]" for k in range(50))
-    stamp = '{"HFTimestamp": {"HFProbeCounter": 0, "Time": "2026-03-11T07:00:00.000Z"}}'
-    (tmp_path / "edge.json").write_text(f'{{"Header": {header}, "Payload": [{stamp}, {{"HFData": [{rows}]}}]}}\n')
-    said = explain(tmp_path / "edge.json")
-    assert (said.kind.split(",")[0], said.claims) == ("JSON of Sinumerik Edge (Capture4Analysis)", {})
-    assert "HFTimestamp" in said.kind
-
-
 def test_json_with_paths_of_a_control_is_no_trace(tmp_path: Path) -> None:
     signals = ", ".join(f'{{"Name": "/Channel/Spindle/x{k}", "Value": {k}}}' for k in range(9))
     (tmp_path / "amw.json").write_text(f'{{"Header": {{"Version": "3"}},\n"Signals": [{signals}]}}\n')

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.tread_noisy import LEAST_LEVELS, PART, noisy_tread_of
+from thermodata.calibration.tread_noisy import LEAST_LEVELS, MOST, PART, noisy_tread_of
 from thermodata.plugin import Float1D
 
 MOST_ROWS = 20_000  # of a stretch: its middle tells as much
@@ -65,7 +65,7 @@ def _moves_by(parts: Sequence[Float1D], tread: float) -> bool:
 
 
 def _parts(x: Float1D) -> list[Float1D]:
-    x = x[np.isfinite(x)]
+    x = x[np.abs(x) < MOST]
     start = max(0, (len(x) - MOST_ROWS) // 2)
     x = x[start : start + MOST_ROWS]
     return np.array_split(x, max(1, len(x) // PART))

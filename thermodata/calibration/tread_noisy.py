@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.plugin import Float1D
 
+MOST = 1e30  # beyond which a number is what an instrument writes for none
 PART = 500  # samples with a zero of their own, so that a slip of the probe costs one part only
 MOST_PARTS = 40  # evenly taken
 RISER = 6.0  # of the usual change of neighbours: what is more is no noise
@@ -32,7 +33,7 @@ def noisy_tread_of(stretches: Sequence[Float1D]) -> float:
     if not parts:
         return 0.0
     parts = [parts[i] for i in np.unique(np.linspace(0, len(parts) - 1, MOST_PARTS).astype(int))]
-    found = [levels for p in parts if (levels := _levels(p[np.isfinite(p)])) is not None]
+    found = [levels for p in parts if (levels := _levels(p[np.abs(p) < MOST])) is not None]
     samples = sum(len(p) for p in parts)
     if not found or sum(int(lengths.sum()) for _, lengths, _, _ in found) < STANDING * samples:
         return 0.0

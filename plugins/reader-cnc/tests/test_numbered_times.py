@@ -97,3 +97,16 @@ def test_numbers_from_a_start_at_a_rate_are_asked_and_declared(tmp_path: Path) -
 
 def test_names_of_columns_are_no_report() -> None:
     assert shdr.claims(["ts|kanal|wert", *(f"{k}|dX|1.5" for k in range(40))]) is None
+
+
+@pytest.mark.parametrize(("step", "asks"), [(0.5, True), (3.7, True), (12.5, False), (250.0, False)])
+def test_numbers_so_close_that_no_control_reports_so_often_are_asked(tmp_path: Path, step: float, asks: bool) -> None:
+    """Seconds with decimals, as loggers of one's own write them; an adapter's milliseconds lie further apart."""
+    stamps = np.cumsum(step * np.random.default_rng(1).uniform(0.8, 1.2, 40))
+    text = "".join(f"{t:.3f}|dX|{k / 10}\n" for k, t in enumerate(stamps))
+    if not asks:
+        assert read(tmp_path, text).t_ns["nc"][-1] == pytest.approx(stamps[-1] * 1e6, rel=1e-4)
+        return
+    with pytest.raises(QuestionError, match="times without a unit"):
+        read(tmp_path, text)
+    assert read(tmp_path, text, unit="s").t_ns["nc"][-1] == pytest.approx(stamps[-1] * 1e9, rel=1e-4)

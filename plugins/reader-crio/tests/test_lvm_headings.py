@@ -79,3 +79,26 @@ def test_packets_through_the_end_of_summer_time_follow_each_other(tmp_path: Path
     (said,) = [n for n in data.recording.notes if "the hour that repeats" in n]
     assert "starts in its first pass" in said
     assert "guess" not in said
+
+
+def dated(file: str, heading: str) -> str:
+    text = head("No") + packet(["a", "b"], x="X_Value\ta\tb")
+    before, behind = text.split("Channels", 1)
+    return (
+        f"{before.replace('2026/03/01', file)}Channels{behind.replace('2026/03/01', heading)}"
+        "\t1,5\t-2\n\t1,25\t3\n\t1\t4\n"
+    )
+
+
+@pytest.mark.parametrize("zero", ["1904/01/01", "1903/12/31", "1904/01/02"])
+def test_a_heading_at_the_zero_of_labview_starts_with_its_file(tmp_path: Path, zero: str) -> None:
+    data = read(tmp_path, dated("2026/03/01", zero))
+    assert data.recording.start_ns == np.datetime64("2026-03-01T07:00:00", "ns").astype(np.int64)
+    assert any("LabVIEW's zero" in note and "the file's is taken" in note for note in data.recording.notes)
+
+
+def test_a_file_that_nobody_dated_has_no_start(tmp_path: Path) -> None:
+    data = read(tmp_path, dated("1904/01/01", "1904/01/01"))
+    assert (data.recording.clock, data.recording.start_ns) == ("relative", None)
+    assert data.t_ns["data"].tolist() == [0, 500_000_000, 1_000_000_000]
+    assert any("times count from the start of the rows" in note for note in data.recording.notes)

@@ -97,3 +97,20 @@ def test_a_list_of_channels_that_numbers_them(first: str, second: str, described
     head = ["Fichier;E1.dxd", "N°;Nom;Description;Unité", first, second, names]
     rows = [f"{i}.0;21.{i:02d};{i}.5;21.5;22.5;23.5" for i in range(40)]
     assert said(find_layout(list(csv.reader([*head, *rows], delimiter=";")), None, "here")) == described
+
+
+@pytest.mark.parametrize("called", ["Description", "Beschreibung:", "Popis"])
+@pytest.mark.parametrize("units", ["", "Unit,degC,degC,um\n"])
+def test_a_row_of_descriptions_below_names_is_not_that_of_names(called: str, units: str) -> None:
+    """Not even where the rows count from a start, and the time is told by its name alone."""
+    head = f"Time [s],T1,T2,dZ\n{called},front bearing,bed left,probe Z\n{units}"
+    found = table(head, "{i}.0,27.25,26.50,0.125")
+    assert found.names == ("Time [s]", "T1", "T2", "dZ")
+    assert said(found) == {"T1": "front bearing", "T2": "bed left", "dZ": "probe Z"}
+    assert not any("is not read" in note for note in found.notes)
+    assert found.units[1:] == (("degC", "degC", "um") if units else (None, None, None))
+
+
+def test_a_row_called_names_below_numbers_of_channels_is_that_of_names() -> None:
+    found = table("Time [s],CH1,CH2,CH3\nName,front bearing,bed left,probe Z\n", "2026/06/15 20:{at},27.25,26.50,0.125")
+    assert found.names[1:] == ("front bearing", "bed left", "probe Z")

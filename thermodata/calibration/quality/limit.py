@@ -21,9 +21,18 @@ _POSSIBLE = {
     "irradiance": (-100.0, 3000.0),
     "flow": (-1e5, 1e5),
 }
-# What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines.
+# What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines, with and
+# without decimals, also as a number of single precision holds these.
 _FULL_SCALE = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0])
-_NINES = np.array([9999.0, -9999.0, 99999.0, -99999.0, 999.9, -999.9, 9999.9, -9999.9])
+_NINES = np.array(
+    [
+        *(float(f"{sign}{'9' * n}") for sign in ("", "-") for n in (4, 5, 6)),
+        -999.0,  # as a reading 999 may be anything
+        *(float(f"{sign}{'9' * n}.{'9' * k}") for sign in ("", "-") for n in (3, 4, 5, 6) for k in range(1, 7)),
+    ]
+)
+_SINGLE = _NINES.astype(np.float32).astype(np.float64)
+_NINES = np.union1d(_NINES, _SINGLE[_SINGLE % 1 != 0])
 _SENTINELS = np.concatenate([_FULL_SCALE, _NINES])
 # a byte's full scale is no share of what is rated, and a row of nines may be what somebody commands
 _CODES = {

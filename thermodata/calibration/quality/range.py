@@ -1,9 +1,9 @@
-"""The end of a range that nobody declared: a channel's tests come to the very same extreme, and none goes beyond; or it
-stands on its own extreme within the noise of its converter."""
+"""The end of a range that nobody declared: a channel's tests come to the very same extreme, to the last digit or
+within the noise of its converter, and none goes beyond."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,51 +16,86 @@ _LEAST_TESTS = 2
 _LEAST_ROWS, _LEAST_S = 100, 1800.0  # of a plateau
 _BAND = 8.0  # of its noise, between the extremes of a plateau of thousands of rows
 _FLAT = 6.0  # standard errors that the means of its eighths differ by
-_EDGE, _SHARP = 0.02, 10.0  # so shortly before it begins, as a share of it, it lay so many times the noise away
-_AT_ONCE = 3.0  # standard errors that it lies off its level in as short a time behind its begin
+_CAME = 10.0, 20.0  # times the noise: the last two distances from its level that it is timed between
+_SHORTLY = 0.1  # of a plateau, in which it came from one to the other
+_OFF, _AT_ONCE = 0.3, 3.0  # times the noise, and standard errors, that it lies off its level where it is due there
 _SPANS = 50.0  # times the noise, that the channel moves by elsewhere
 
-Limits = tuple[float | None, float | None]  # lower and upper; None where none is known
+_SAME = 0.5  # times the noise, between the levels that two tests stand on: a shift by the speed differs by more
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """Where a range ends, and how far about it a reading stands there, both in the reading's unit."""
+
+    level: float
+    within: float = 0.0
+
+
+Limits = tuple[End | None, End | None]  # lower and upper; None where none is known
 
 
 def ends_of_ranges(readings: Mapping[tuple[str, str], Reading]) -> dict[tuple[str, str], Limits]:
     """(test, channel) -> the limits of its range that the test comes to. readings: by test and channel.
 
-    A fine and noisy reading comes to its extreme once. Where two tests stand on the same one, to the last digit, it is
-    where the sensor ends. A rest at zero is none, nor is what only a channel shows that stands throughout.
+    A fine and noisy reading comes to its extreme once. Where two tests stand on the same one, to the last digit, or
+    within the noise of a converter, it is where the sensor ends. A rest at zero is none, nor is what only a channel
+    shows that stands throughout.
     """
     found: dict[tuple[str, str], Limits] = {}
     for channel in dict.fromkeys(c for _, c in readings):
         own = {t: r for (t, c), r in readings.items() if c == channel}
         if not any(r.is_fine for r in own.values()):
             continue
-        lower = _end({t: (-r.low, r.low_n) for t, r in own.items() if r.low is not None}, own)
-        upper = _end({t: (r.high, r.high_n) for t, r in own.items() if r.high is not None}, own)
-        low = None if lower is None else -lower
+        lower, upper = _end(own, -1), _end(own, 1)
         for test, r in own.items():
-            limits = (low if low == r.low else None, upper if upper == r.high else None)
+            limits = (lower if _comes_to(lower, r.low) else None, upper if _comes_to(upper, r.high) else None)
             if limits != (None, None):
                 found[test, channel] = limits
     return found
 
 
-def _end(extremes: Mapping[str, tuple[float, int]], readings: Mapping[str, Reading]) -> float | None:
-    """The largest extreme of all tests, where enough of them stand on it. extremes: test -> (value, readings there)."""
+def _comes_to(end: End | None, extreme: float | None) -> bool:
+    return end is not None and extreme is not None and abs(extreme - end.level) <= end.within
+
+
+def _end(readings: Mapping[str, Reading], side: int) -> End | None:
+    """The furthest extreme of all tests on a side, where enough of them stand on it. readings: by test."""
+    extremes = {
+        t: (value, n)
+        for t, r in readings.items()
+        for value, n in [(r.low, r.low_n) if side < 0 else (r.high, r.high_n)]
+        if value is not None
+    }
     if not extremes:
         return None
-    end = max(value for value, _ in extremes.values())
+    end = side * max(side * value for value, _ in extremes.values())
     shown = [t for t, (value, n) in extremes.items() if value == end and n >= _LEAST_AT and readings[t].has_moved]
-    return end if len(shown) >= _LEAST_TESTS and end != 0.0 else None
+    if len(shown) >= _LEAST_TESTS and end != 0.0:
+        return End(end)
+    return _end_in_noise([r.plateau for r in readings.values() if r.plateau and r.plateau[2] == side], end)
+
+
+def _end_in_noise(plateaus: Sequence[tuple[float, float, int]], furthest: float) -> End | None:
+    """The level that enough tests stand on within the noise, beyond which none goes. plateaus: see `Reading`;
+    furthest: of all tests."""
+    if not plateaus:
+        return None
+    level, noise, _ = min(plateaus, key=lambda p: abs(p[0] - furthest))
+    same = [p for p in plateaus if abs(p[0] - level) <= _SAME * noise]
+    return End(level, _BAND * noise) if len(same) >= _LEAST_TESTS and abs(level - furthest) <= _BAND * noise else None
 
 
 @dataclass(frozen=True, slots=True)
 class Plateau:
-    """Rows start to stop of a record stand on one level, its extreme. side: -1 for its lowest, 1 for its highest."""
+    """Rows start to stop of a record stand on one level, its extreme. side: -1 for its lowest, 1 for its highest.
+    noise: its standard deviation."""
 
     start: int
     stop: int
     level: float
     side: int
+    noise: float
 
 
 def plateau_at_extreme(t_s: Float1D, x: Float1D) -> Plateau | None:
@@ -80,14 +115,29 @@ def _plateau(t_s: Float1D, x: Float1D, noise: float, side: int) -> Plateau | Non
     edges = np.flatnonzero(np.diff(np.concatenate(([0], (x >= x.max() - _BAND * noise).astype(np.int8), [0]))))
     start, stop = max(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True), key=lambda run: run[1] - run[0])
     n = stop - start
-    edge = max(3, round(_EDGE * n))
-    before = start - edge
-    if n < _LEAST_ROWS or t_s[stop - 1] - t_s[start] < _LEAST_S or before < 0:
+    if n < _LEAST_ROWS or t_s[stop - 1] - t_s[start] < _LEAST_S:
         return None
     level = float(np.median(x[start:stop]))
-    means = [float(part.mean()) for part in np.array_split(x[start + n // 20 : stop - n // 20], 8)]
-    flat = max(means) - min(means) <= _FLAT * noise / np.sqrt(0.9 * n / 8)
-    # what comes to rest as fast as it began still sinks into its level here
-    at_once = abs(float(x[start : start + edge].mean()) - level) <= _AT_ONCE * noise / np.sqrt(edge)
-    corner = at_once and level - x[before] >= _SHARP * noise
-    return Plateau(start, stop, side * level, side) if flat and corner else None
+    first = _behind_corner(x[:stop], start, level, noise)
+    if first is None:
+        return None
+    rest = x[max(first, start + n // 20) : stop - n // 20]
+    means = [float(part.mean()) for part in np.array_split(rest, 8)]
+    flat = max(means) - min(means) <= _FLAT * noise / np.sqrt(rest.size / 8)
+    return Plateau(start, stop, side * level, side, noise) if flat else None
+
+
+def _behind_corner(x: Float1D, start: int, level: float, noise: float) -> int | None:
+    """The row from which on x stands on its level, where it went on towards it as it came, and then stood at once: what
+    comes to rest by itself slows down, and still sinks into its level there. None where it does not. start: about where
+    it comes there."""
+    near, far = (np.flatnonzero(x[:start] <= level - times * noise) for times in _CAME)
+    if not near.size or not far.size:
+        return None
+    came = max(3, int(near[-1] - far[-1]))
+    due = int(near[-1]) + came  # at the pace of before it is at its level from here on
+    within = x[due : due + came]
+    if came > _SHORTLY * (x.size - start) or start - near[-1] > came or within.size < came:
+        return None
+    at_once = abs(float(within.mean()) - level) <= (_OFF + _AT_ONCE / np.sqrt(came)) * noise
+    return due + came if at_once else None

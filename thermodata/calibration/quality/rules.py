@@ -93,11 +93,14 @@ def stands_at_an_end_of_its_range(seen: Marked) -> None:
 
 def _at_ends_of_other_tests(seen: Marked) -> Bool1D:
     at_end: Bool1D = np.zeros(len(seen.x), dtype=bool)
-    for limit, side in zip(seen.column.limits, ("lower", "upper"), strict=True):
-        here = (seen.x == limit) & ~seen.told
+    for end, side in zip(seen.column.limits, ("lower", "upper"), strict=True):
+        if end is None:
+            continue
+        with np.errstate(invalid="ignore"):
+            here = (np.abs(seen.x - end.level) <= end.within) & ~seen.told
         at_end |= here
         if here.any():
-            seen.mark(Flag.SATURATED, here, f"{side} limit {limit:.6g}, as in other tests: {SAY_RANGE}")
+            seen.mark(Flag.SATURATED, here, f"{side} limit {end.level:.6g}, as in other tests: {SAY_RANGE}")
     return at_end
 
 

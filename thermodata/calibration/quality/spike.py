@@ -72,7 +72,7 @@ def _stand_out(x: Float1D, noise: float) -> tuple[Int1D, Float1D]:
     middle = (left + right) / 2
     spread = np.nanmedian(np.abs(around - np.where(np.arange(2 * half) < half, left[:, None], right[:, None])), axis=1)
     height = np.abs(x[near] - middle)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         out = (height > np.maximum(_SPIKE * noise, 10 * spread)) & (np.abs(left - right) < 0.3 * height)
     return near[out], height[out]
 

@@ -19,7 +19,8 @@ _COARSER = 3.0  # than usual: it was logged otherwise
 class Reading:
     """How a channel read in a test, as in `RunStats`. moving: differences that it rests on. stood_s: the longest
     stretch of exactly one value [s]. low, high: its extremes, None where it has no value; low_n, high_n: readings
-    that stand there, each one however often it is logged."""
+    that stand there, each one however often it is logged. plateau: (level, noise, -1 for its lowest or 1 for its
+    highest) where it stands on its extreme within its noise."""
 
     step: float
     finest: float
@@ -31,6 +32,7 @@ class Reading:
     low_n: int = 0
     high: float | None = None
     high_n: int = 0
+    plateau: tuple[float, float, int] | None = None
 
     @property
     def has_moved(self) -> bool:

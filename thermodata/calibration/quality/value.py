@@ -73,7 +73,7 @@ def run_stats(x: Float1D) -> RunStats:
     size = np.abs(moving)
     # rounding makes equal steps differ in the last bits: the finest step is a low quantile, not the minimum
     finest, step = np.quantile(size, [0.01, 0.5]).tolist()
-    turns = float(np.mean(moving[1:] * moving[:-1] < 0))
+    turns = float(np.mean((moving[1:] > 0) != (moving[:-1] > 0)))
     return RunStats(starts, lengths, step, finest, chance, turns, low, high, leap)
 
 

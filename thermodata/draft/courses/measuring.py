@@ -1,5 +1,5 @@
-"""When a test measures, told from its recording: probes that leave their range exactly while an axis is elsewhere, or
-a state says so, as with a spindle that meets its probes once a cycle."""
+"""When a test measures, told from its recording: probes that leave their range exactly while an axis is elsewhere or
+feeds, or a state says so, as with a spindle that meets its probes once a cycle."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
             out = _out_of_range(courses[probe].values)
             if out is None:
                 continue
-            found = _by_state(courses, names, probe, out) or _by_position(courses, names, probe, out)
-            if found:
-                return found
+            for way in (_by_state, _by_position, _by_feed):
+                if (found := way(courses, names, probe, out)) is not None:
+                    return found
     return None
 
 
@@ -97,6 +97,14 @@ def _by_position(courses: Mapping[Key, Course], names: Named, probe: Key, out: B
         limit = float(f"{np.sqrt(max(near, 1e-3 * far) * far):.2g}")
         if _agree(np.abs(x - middle) < limit, ~out):
             return f"abs({names[key][2]} - {middle:.6g}) < {limit:g}"
+    return None
+
+
+def _by_feed(courses: Mapping[Key, Course], names: Named, probe: Key, out: Bool1D) -> str | None:
+    """A feed that is 0 exactly while the probe has a reading, whatever its unit."""
+    for key in courses:
+        if names[key][0] == "feed" and (x := _beside(courses, probe, key)) is not None and _agree(x == 0, ~out):
+            return f"{names[key][2]} == 0"
     return None
 
 

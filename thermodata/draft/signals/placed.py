@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity import OF_SENSOR, Guess
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.place import described_place, place_of
@@ -44,7 +44,9 @@ def placed(found: Guess, own: str, text: str, told: str = "") -> Guess:
             place = Place(wider.at, False, wider.question)
     axis = axis or (axis_of(text) if quantity in ("displacement", "tilt") else None)
     questions = list(found.questions)
-    if place.question and (quantity in _NEEDS_PLACE or quantity == "state"):
+    # what a sensor's current measures says where it may be: no drive of it is sought before that is known
+    is_open = any(q.startswith(OF_SENSOR) for q in questions)
+    if place.question and not is_open and (quantity in _NEEDS_PLACE or quantity == "state"):
         questions.append(place.question)
     letter = axis.upper() if axis and quantity in ("displacement", "tilt") else None
     if quantity == "displacement" and place.at == "tcp" and letter is None:

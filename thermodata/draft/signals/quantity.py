@@ -23,6 +23,7 @@ _DELTA = re.compile(r"(?:d|δ) ?t(?:emp)?\b")  # 'dT_front', which begins at 0
 _NO_HALL_C = 10.0  # colder than any machine that stands in a hall
 # what creeps there between 5 and 80 is a temperature
 _NEST = "nest. nid. nido."  # that holds the probes
+OF_SENSOR = "a sensor's 4..20 mA?"  # begins the question for what such a signal measures
 _SIGNAL_MA = (3.5, 21.0)  # NAMUR NE 43: what a sensor sends, with the marks of its failures
 # places of parts whose current is that of a drive, and of ones that have none
 _DRIVES = frozenset({"motor", "spindle", "pump", "fan", "drive"})
@@ -179,10 +180,10 @@ def _of_a_sensor(against: list[str], own: str, values: Values | None) -> str | N
     places = places_in(own)
     low, high = (0.0, 0.0) if values is None else values.usual
     if against:
-        return f"a sensor's 4..20 mA? of {against[0]}"
+        return f"{OF_SENSOR} of {against[0]}"
     if (_SIGNAL_MA[0] <= low and high <= _SIGNAL_MA[1] and not places & _DRIVES) or places & _OF_SENSORS:
         span = "" if values is None else f" ({range_text(values)})"
-        return f"a sensor's 4..20 mA?{span} then quantity: what it measures, and a calibration"
+        return f"{OF_SENSOR}{span} then quantity: what it measures, and a calibration"
     return None
 
 

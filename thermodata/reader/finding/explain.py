@@ -43,11 +43,6 @@ _ARCHIVE = "a ZIP archive of files"
 # The first lines of what is text, and no table whatever is declared
 _TEXTS: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"(?i)\s*<(?:!doctype\s+html|html|table)\b"), "an HTML page, whatever it is called: save it as XLSX"),
-    (
-        re.compile(r'\s*\{(?=.{0,4000}"(?:SignalListHFData|HFData|HFProbeCounter)")', re.DOTALL),
-        "JSON of Sinumerik Edge (Capture4Analysis), which nothing reads: export it as CSV, a row each of HFData, its "
-        "columns by the Name (with Axis) in SignalListHFData, and the time from HFTimestamp and HFProbeCounter",
-    ),
     (re.compile(r"\s*(?:\{\s*\"|\[\s*[\[{])"), "JSON: export it as CSV"),
 )
 

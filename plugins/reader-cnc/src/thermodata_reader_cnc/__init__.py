@@ -20,11 +20,13 @@ class Reader:
         "CSV exports of a control (German, Czech, English)",
         "Sinumerik Trace XML",
         "Sinumerik Trace CSV",
+        "SINUMERIK Edge (Capture4Analysis, JSON)",
         "Heidenhain TNCscope (.sco)",
         "TwinCAT Scope text export",
         "MTConnect streams (XML)",
         "MTConnect SHDR",
         "OPC UA and SIMATIC long tables",
+        "lines of JSON: MQTT, Telegraf, Industrial Edge",
     )
 
     @property

@@ -14,9 +14,10 @@ from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text.claim import head_lines
 from thermodata_reader_cnc import export
 from thermodata_reader_cnc.heidenhain import sco
+from thermodata_reader_cnc.messages import json_lines
 from thermodata_reader_cnc.mtconnect import shdr, streams
 from thermodata_reader_cnc.opcua import long_table
-from thermodata_reader_cnc.sinumerik import trace_csv, trace_xml
+from thermodata_reader_cnc.sinumerik import capture, trace_csv, trace_xml
 from thermodata_reader_cnc.twincat import scope
 
 
@@ -53,6 +54,8 @@ FORMATS = (
     Format("SHDR", shdr),
     Format("TWINCAT", scope),
     Format("SCO", sco),
+    Format("EDGE", capture),
+    Format("JSON_LINES", json_lines),
     Format("OPCUA", long_table),
     Format("TRACE_CSV", trace_csv),
     Format("CONTROL_CSV", export),

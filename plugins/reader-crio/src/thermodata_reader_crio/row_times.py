@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D
-from thermodata.reader.text.cells.time_pattern import TIME_OF_DAY, declared_format, with_zone
+from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY, declared_format, with_zone
 from thermodata.reader.text.times.timestamp import parse_one
 from thermodata.reader.times.time_units import to_ns
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
@@ -24,6 +24,12 @@ def local_ns(date: str, time: str) -> int | None:
     day = next((ns for form in _DATES if (ns := parse_one(date, form)) != NAT), None)
     of_day = parse_one(time, _TIME)
     return None if day is None or of_day == NAT or day < EPOCH_1904_NS else day + of_day
+
+
+def is_zero(date: str) -> bool:
+    """Whether a date is that of LabVIEW's zero, the begin of 1904 in UTC, in whatever zone: nobody set it."""
+    day = next((ns for form in _DATES if (ns := parse_one(date, form)) != NAT), None)
+    return day is not None and abs(day - EPOCH_1904_NS) <= DAY_NS
 
 
 def utc_ns(local: Int1D, timezone: str | None) -> tuple[Int1D, list[str]]:

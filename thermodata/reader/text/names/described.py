@@ -1,5 +1,5 @@
-"""What a file says of its columns above their names: a row of comments, or a list of its channels with what the user
-called them. Their names stay, for old campaign files name them; what is said of them stands beside."""
+"""What a file says of its columns beside their names: a row of comments, or above them a list of its channels with what
+the user called them. Their names stay, for old campaign files name them; what is said of them stands beside."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.cell import is_number, is_stamp
-from thermodata.reader.text.names.group_heads import OF_TEXTS
+from thermodata.reader.text.names.group_heads import OF_TEXTS, is_of_descriptions
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.header_rows import OF_UNITS
 
@@ -22,13 +22,17 @@ _FEWEST = 2  # columns that a row of comments, or a list without a header, speak
 def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
-    rows = rows[: names_at(rows, names)]
+    at = names_at(rows, names)
+    below = [row for row in rows[at + 1 :] if row and is_of_descriptions(row)]
+    rows = rows[:at]
     key_at, listed = _listed(rows, names)
     said, units = _of_list(rows, key_at, listed, names)
     heads = {min(at for at, _ in listed) - 1} if listed else set()
     for at, row in enumerate(rows):
         if at not in heads and not any(said):
             said = _of_row(row, names)
+    for row in below:
+        said = said if any(said) else _of_row(row, names)
     return said, units
 
 

@@ -18,10 +18,21 @@ OF_TEXTS = re.compile(
     r"コメント|名称|信号名|チャンネル名|注释|备注|信号名称|通道名称|설명|이름"
 )
 
+# ... which say more of them than their names do, and name none; a row of comments may hold what the user called them
+_OF_DESCRIPTIONS = re.compile(
+    r"(?i)(channel |signal )?descriptions?|beschreibung(en)?|descrizion[ei]|descripci(ón|ones)|omschrijving|popis|opis|"
+    r"설명"
+)
+
 
 def is_label(cell: str) -> bool:
     """Whether a first cell says what its row holds, as "Comment" and "Tag" do."""
     return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
+
+
+def is_of_descriptions(row: Sequence[str]) -> bool:
+    """Whether the first cell of a row says that it tells more of each name: "Description", "Popis"."""
+    return _OF_DESCRIPTIONS.fullmatch(row[0].strip(" .:")) is not None
 
 
 def is_sentence(row: Sequence[str]) -> bool:

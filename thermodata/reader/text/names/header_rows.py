@@ -11,6 +11,7 @@ from thermodata.reader.text.names.group_heads import (
     apart_by_comments,
     heads_over,
     is_label,
+    is_of_descriptions,
     of_channels,
     under,
     units_of_heads,
@@ -154,10 +155,12 @@ def _times_among(row: Sequence[str], again: bool = False) -> list[int]:
 
 
 def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
-    """Whether a row below names holds none: statistics, or the same word again and again, or words where the time
-    stands that neither name one nor say that the row is one of descriptions."""
+    """Whether a row below names holds none: statistics, the same word again and again, descriptions of them, or words
+    where the time stands that neither name one nor say that the row is one of labels."""
     filled = [c for c in row if c]
     if all(map(STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
+        return True
+    if is_of_descriptions(row):
         return True
     said = [row[k] for k in times if row[k]]
     return bool(said) and not is_label(row[0]) and not any(map(says_time, said))
@@ -193,7 +196,7 @@ def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
 
 
 def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
-    """The rows between the names and the data that are part of neither, nor units; from 0."""
+    """The rows between the names and the data that are part of neither, nor units, nor descriptions; from 0."""
     told = [_texts(r, width)[:width] for r in rows]
     texts = without_types(told)
     called = _labelled_units(texts)
@@ -204,7 +207,8 @@ def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     times = [] if named is None else _times_among(texts[at[spanning[named]]])
-    return [i for i in below if any(told[i]) and (named is None or not of_units(texts[i], times))]
+    apart = [i for i in below if any(told[i]) and not is_of_descriptions(texts[i])]
+    return [i for i in apart if named is None or not of_units(texts[i], times)]
 
 
 def are_numbers(cells: Sequence[Cell]) -> bool:

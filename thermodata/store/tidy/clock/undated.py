@@ -28,7 +28,7 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
     base_ns, notes = dict.fromkeys(plan.sources, 0), list[str]()
     if start is not None and dated and not probes:
         began = start_ns(start, plan)
-        apart_s = (min(map(first_ns, plan.reference)) - began) / 1e9
+        apart_s = (min(map(_first_declared, plan.reference)) - began) / 1e9
         if abs(apart_s) > _NEAR_S:
             plan.problems.append(
                 f"test '{plan.test.id}': start is {start}, but its recordings have dates of their own, "
@@ -41,7 +41,7 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
     elif dated:
         with_dates = [s for s in plan.reference if s in dated] or dated
         for source in undated:
-            base_ns[source.name] = min(map(first_ns, with_dates))
+            base_ns[source.name] = min(map(_first_declared, with_dates))
             moved = "" if source.spec.clock.offset is None else ", moved by its declared offset"
             notes.append(
                 f"source '{source.name}' has a relative clock: taken to {_count_from(source)}{moved}; "
@@ -51,13 +51,23 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
     return base_ns, notes
 
 
+def _declared_ns(source: SourcePlan) -> int:
+    """By how much the campaign file moves a clock."""
+    return round((source.spec.clock.offset or 0.0) * 1e9)
+
+
+def _first_declared(source: SourcePlan) -> int:
+    """The first time of a source on the clock that is declared of it [ns]."""
+    return first_ns(source) + _declared_ns(source)
+
+
 def _beside(plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
     """A start at which nothing that has dates was recorded."""
     if not dated or not undated:
         return []
-    begin = min(base_ns[s.name] + first_ns(s) for s in undated)
-    end = max(base_ns[s.name] + last_ns(s) for s in undated)
-    first, last = min(map(first_ns, dated)), max(map(last_ns, dated))
+    begin = min(base_ns[s.name] + _first_declared(s) for s in undated)
+    end = max(base_ns[s.name] + last_ns(s) + _declared_ns(s) for s in undated)
+    first, last = min(map(_first_declared, dated)), max(last_ns(s) + _declared_ns(s) for s in dated)
     if begin <= last and first <= end:
         return []
     gap_s = (first - end if first > end else begin - last) / 1e9

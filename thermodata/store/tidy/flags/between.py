@@ -14,7 +14,7 @@ from thermodata.calibration.between_tests.dead import dead_throughout
 from thermodata.calibration.between_tests.failing import offsets_between_tests
 from thermodata.calibration.between_tests.foreign import foreign_part
 from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
-from thermodata.calibration.quality.range import Limits, ends_of_ranges
+from thermodata.calibration.quality.range import Limits, ends_of_ranges, plateau_at_extreme
 from thermodata.calibration.quality.still import Reading, read_elsewhere
 from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
@@ -164,7 +164,9 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
         (float(t_s[a + n - 1] - t_s[a]) for a, n in zip(stats.starts.tolist(), stats.lengths.tolist(), strict=True)),
         default=0.0,
     )
-    new = Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x, stats))
+    new = Reading(
+        stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x, stats), _plateau(x, t_s)
+    )
     if known is None:
         return new
     low, low_n = _further(min, (known.low, known.low_n), (new.low, new.low_n))
@@ -176,7 +178,15 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
         low_n=low_n,
         high=high,
         high_n=high_n,
+        plateau=known.plateau or new.plateau,
     )
+
+
+def _plateau(x: Float1D, t_s: Float1D) -> tuple[float, float, int] | None:
+    """See `Reading`."""
+    known = np.isfinite(x)
+    found = plateau_at_extreme(t_s[known], x[known])
+    return None if found is None else (found.level, found.noise, found.side)
 
 
 def _extremes(x: Float1D, stats: RunStats) -> tuple[float | None, int, float | None, int]:

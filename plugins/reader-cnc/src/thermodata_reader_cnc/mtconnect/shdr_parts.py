@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from thermodata.errors import QuestionError, UsageError
 from thermodata.reader.signals.unit_words import is_surely_unit
 from thermodata.reader.text.cells.number import is_empty, is_number
@@ -20,6 +22,7 @@ ALIKE = 0.9  # of the lines of a log
 _UNITS = {"ms": OFFSET_MS, "s": OFFSET_S}
 _FEW, _LOOKED_AT = 200, 10_000
 _STEPS = 4  # that show a fixed rate
+_LEAST_STEP_NS = 8e6  # between two reports: the shortest cycle at which a control is asked
 _SURE = 0.5  # of the words behind values are units known here: a few may be of a trade
 _MOST_UNITS = 3  # of an item, one that ranges by itself
 
@@ -40,14 +43,15 @@ def numbered_form(stamps: Sequence[str]) -> TimeFormat | None:
 
 def time_form(stamps: Sequence[str], table: Mapping[str, Any] | None, where: str) -> TimeFormat:
     """How the times of all lines are written. table: what the campaign file declares. QuestionError: numbers from a
-    start at a fixed rate, which an adapter has in milliseconds and other loggers in seconds."""
+    start at a fixed rate, which an adapter has in milliseconds and other loggers in seconds; or so close to each other
+    that no adapter reports so often."""
     times = [s.partition("@")[0] for s in stamps]
     if any(parse_one(s, events.ISO) != NAT for s in times):
         return events.ISO
     form = numbered_form(times) or OFFSET_MS
     said = (table or {}).get("time")
     unit = said.get("unit") if isinstance(said, Mapping) else None
-    if form != OFFSET_MS or (unit is None and not _at_a_rate(times)):
+    if form != OFFSET_MS or (unit is None and not (_at_a_rate(times) or _too_often(times))):
         return form
     if unit == UNKNOWN:
         raise unanswered("time.unit", " or ".join(_UNITS), where)
@@ -77,6 +81,14 @@ def _at_a_rate(times: Sequence[str]) -> bool:
     different = list(dict.fromkeys(s.strip() for s in times[:_LOOKED_AT] if s.strip().isdecimal()))
     steps = [b - a for a, b in pairwise(parse(different, OFFSET_MS).tolist())]
     return len(steps) >= _STEPS and steps.count(steps[0]) >= ALIKE * len(steps)
+
+
+def _too_often(times: Sequence[str]) -> bool:
+    """Whether numbers lie so close to each other that, read as milliseconds, no control would report so often."""
+    different = list(dict.fromkeys(s.strip() for s in times[:_LOOKED_AT] if s.strip()))
+    ns = parse(different, OFFSET_MS)
+    steps = np.diff(ns[ns != NAT])
+    return steps.size >= _STEPS and 0 < float(np.median(steps)) < _LEAST_STEP_NS
 
 
 def units_behind(parts: Sequence[Sequence[str]]) -> dict[str, str]:

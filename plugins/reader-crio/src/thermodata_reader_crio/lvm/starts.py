@@ -12,12 +12,21 @@ import numpy as np
 
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan
-from thermodata_reader_crio.row_times import local_ns, utc_ns
+from thermodata_reader_crio.row_times import is_zero, local_ns, utc_ns
 
 
 def said_start(header: Header, packet: Packet, channel: int) -> tuple[str, str]:
-    """The date and the time of a channel as its heading has them, else as the file has."""
-    return packet.key("Date", channel) or header.date, packet.key("Time", channel) or header.time
+    """The date and the time of a channel as its heading has them, else, or where nobody set that, as the file has;
+    ('', '') where nobody set that either."""
+    if is_unset(packet, channel):
+        return ("", "") if is_zero(header.date) else (header.date, header.time)
+    date, time = packet.key("Date", channel) or header.date, packet.key("Time", channel) or header.time
+    return ("", "") if is_zero(date) else (date, time)
+
+
+def is_unset(packet: Packet, channel: int) -> bool:
+    """Whether the heading of a channel dates it at LabVIEW's zero, in 1904."""
+    return is_zero(packet.key("Date", channel) or "")
 
 
 @dataclass

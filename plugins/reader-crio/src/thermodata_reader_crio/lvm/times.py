@@ -9,7 +9,7 @@ from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.rows.grid import Rows
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.lvm.header import Header, Packet
-from thermodata_reader_crio.lvm.starts import Starts, said_start
+from thermodata_reader_crio.lvm.starts import Starts, is_unset, said_start
 from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, seconds_ns
 
 
@@ -70,6 +70,9 @@ class Times:
         for note in decided:
             self._say(note)
         date, time = said_start(self.header, self.packet, channel)
+        if is_unset(self.packet, channel):
+            instead = "the file's is taken" if start is not None else "times count from the start of the rows"
+            self._say(f"line {self.packet.line}: its start is LabVIEW's zero, in 1904, which says none; {instead}")
         if start is None and (date or time):
             self._say(
                 f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "

@@ -1,0 +1,1 @@
+"""Messages of brokers and edge devices in JSON."""

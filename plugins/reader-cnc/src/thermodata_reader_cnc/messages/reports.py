@@ -1,0 +1,151 @@
+"""What one message reports: an object with a time, of a value with its name, of values by their keys, or of a list of
+such objects, as brokers of MQTT, Telegraf and Industrial Edge write them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from thermodata.reader.text.cells.status import is_good
+from thermodata_reader_cnc.events import GONE
+from thermodata_reader_cnc.messages.json_text import Number, loads
+from thermodata_reader_cnc.messages.shape import QC, Shape, shape_of
+from thermodata_reader_cnc.opcua.long_layout import bare
+
+MOST = 1000  # values of one message
+_DEEPEST = 8  # objects within objects
+_LONGEST_WORD = 64  # letters of a time, a unit, a quality
+_MOST_ELEMENTS = 16  # numbers of an array that are signals of their own
+_TELEGRAF = {"fields", "tags", "name", "timestamp"}
+
+
+class Report(NamedTuple):
+    """A value at a time, as texts. labels: of where it comes from, outermost first; quality: the code or word that is
+    told of it, '' where none is."""
+
+    time: str
+    labels: tuple[str, ...]
+    name: str
+    value: str
+    unit: str = ""
+    quality: str = ""
+
+
+class _Place(NamedTuple):
+    """Where an object stands: what those around it say."""
+
+    time: str = ""
+    labels: tuple[str, ...] = ()
+    name: str = ""
+    depth: int = 0
+
+
+def reports(message: Any) -> Iterator[Report]:
+    """The values of a message, MOST of them at most. One without a time has none ('')."""
+    for n, each in enumerate(_of(message, _Place())):
+        if n >= MOST:
+            return
+        yield each
+
+
+def _of(value: Any, at: _Place) -> Iterator[Report]:
+    if at.depth > _DEEPEST:
+        return
+    if isinstance(value, dict):
+        yield from _of_object(value, at)
+    elif isinstance(value, list):
+        yield from _of_list(value, at)
+    elif at.name or at.labels:
+        yield Report(at.time, at.labels, at.name, _text(value))
+
+
+def _of_object(message: Mapping[str, Any], at: _Place) -> Iterator[Report]:
+    shape = shape_of(tuple(message))
+    if message.keys() >= _TELEGRAF and isinstance(message["fields"], dict):
+        tags = message["tags"] if isinstance(message["tags"], dict) else {}
+        labels = (*at.labels, _text(message["name"]), *map(_text, tags.values()))
+        yield from _of_values(
+            message["fields"], _Place(_word(message["timestamp"]), labels, "", at.depth + 1), frozenset()
+        )
+        return
+    time = _time(message, shape) or at.time
+    labels = (*at.labels, *(_text(message[k]) for k in shape.labels if _is_scalar(message[k])))
+    name = _text(message[shape.name]) if shape.name is not None and _is_scalar(message[shape.name]) else ""
+    if shape.value is not None and (name or at.name):
+        yield from _of_value(message, shape, _Place(time, labels, "/".join(filter(None, (at.name, name))), at.depth))
+    else:
+        labels = (*labels, name) if name else labels
+        told = shape.told - {shape.value} if shape.value is not None else shape.told
+        yield from _of_values(message, _Place(time, labels, at.name, at.depth), told)
+
+
+def _of_value(message: Mapping[str, Any], shape: Shape, at: _Place) -> Iterator[Report]:
+    """Of an object that says what its value is of: a number, a word, or a message in it."""
+    value = _unpacked(message[str(shape.value)])
+    if not _is_scalar(value):
+        yield from _of(value, _Place(at.time, (*at.labels, at.name), "", at.depth + 1))
+        return
+    unit, quality = (_word(message[k]) if k is not None else "" for k in (shape.unit, shape.quality))
+    if shape.quality is not None and bare(shape.quality) == QC:
+        quality = "bad" if quality == "0" else "good"
+    yield Report(at.time, at.labels, at.name, _text(value), unit, quality)
+
+
+def _of_values(message: Mapping[str, Any], at: _Place, told: frozenset[str]) -> Iterator[Report]:
+    """Of an object whose keys name its values."""
+    for key, value in message.items():
+        if key in told:
+            continue
+        held = isinstance(value, list) and any(isinstance(each, dict) for each in value)
+        name = at.name if held else ".".join(filter(None, (at.name, key)))
+        yield from _of(value, _Place(at.time, at.labels, name, at.depth + 1))
+
+
+def _of_list(values: Sequence[Any], at: _Place) -> Iterator[Report]:
+    """Of a list: objects that say what they are, or numbers, each by its place."""
+    if not any(isinstance(each, (dict, list)) for each in values) and len(values) > _MOST_ELEMENTS:
+        return
+    for k, value in enumerate(values):
+        said = isinstance(value, dict) and (own := shape_of(tuple(value))) is not None and _says(own)
+        yield from _of(value, _Place(at.time, at.labels, at.name if said else f"{at.name}[{k}]", at.depth + 1))
+
+
+def _says(shape: Shape) -> bool:
+    """Whether an object of a list says what it is, or when it was."""
+    return shape.name is not None or shape.time is not None
+
+
+def _time(message: Mapping[str, Any], shape: Shape) -> str:
+    value = None if shape.time is None else message[shape.time]
+    return _word(value) if isinstance(value, str) else ""
+
+
+def _unpacked(value: Any) -> Any:
+    """A value that is a text in JSON, as a broker hands a payload on, by what it holds."""
+    if isinstance(value, str) and not isinstance(value, Number) and value.lstrip()[:1] == "{":
+        try:
+            return loads(value)
+        except (ValueError, RecursionError):
+            return value
+    return value
+
+
+def _is_scalar(value: Any) -> bool:
+    return not isinstance(value, (dict, list))
+
+
+def _word(value: Any) -> str:
+    """A time, a unit or a quality; '' of what is none."""
+    text = _text(value)
+    return "" if text == GONE or len(text) > _LONGEST_WORD else text
+
+
+def _text(value: Any) -> str:
+    if value is None or not _is_scalar(value):
+        return GONE
+    return str(value).lower() if isinstance(value, bool) else str(value).strip() or GONE
+
+
+def is_bad(report: Report, zero_good: bool) -> bool:
+    """Whether the message itself calls a value bad. zero_good: whether the code 0 is good."""
+    return bool(report.quality) and not is_good(report.quality, zero_good)
