@@ -24,6 +24,7 @@ from thermodata.calibration.expression.nodes import (
     Negative,
     Node,
     Not,
+    Rate,
 )
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array
@@ -56,6 +57,11 @@ class Logic:
 Value = Number | Logic
 
 
+def rate_of(name: str) -> str:
+    """The key by which `Evaluation.values` holds the rate of a channel, in its unit by the second."""
+    return f"rate({name})"
+
+
 class Evaluation:
     """One walk over a tree. Raises UsageError for a missing name or units that don't fit."""
 
@@ -74,6 +80,8 @@ class Evaluation:
             case Absolute(of):
                 a = number(self.of(of))
                 return Number(np.abs(a.value), a.unit, a.bare, a.label)
+            case Rate(name):
+                return self._rate(name)
             case Arithmetic("+" | "-" as operator, left, right):
                 return self._sum(operator, number(self.of(left)), number(self.of(right)))
             case Arithmetic(operator, left, right):
@@ -115,6 +123,10 @@ class Evaluation:
         if unit is not None and normal_unit(unit) == "dimensionless":
             unit = ""
         return Number(value.astype(np.float64, copy=False), unit, False, name)
+
+    def _rate(self, name: str) -> Number:
+        of, label = self._name(name), rate_of(name)
+        return Number(np.asarray(self.values[label]), compound_unit(of.unit or "", "/", "s"), False, label)
 
     def _right_in_left(self, a: Number, b: Number, difference: bool) -> tuple[Any, Any, str | None, bool]:
         """(a, b) as numbers of one unit, that unit, and whether both are bare."""

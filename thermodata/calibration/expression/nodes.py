@@ -34,6 +34,13 @@ class Absolute:
 
 
 @dataclass(frozen=True, slots=True)
+class Rate:
+    """The rate of change of a channel between its own samples, by the second."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class Arithmetic:
     operator: Operator
     left: Node
@@ -63,4 +70,4 @@ class Not:
     of: Node
 
 
-Node = Constant | Name | Negative | Absolute | Arithmetic | Comparison | Every | AnyOf | Not
+Node = Constant | Name | Negative | Absolute | Rate | Arithmetic | Comparison | Every | AnyOf | Not

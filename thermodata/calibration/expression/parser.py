@@ -6,10 +6,12 @@
     comparison := sum (("<" | "<=" | ">" | ">=" | "==" | "!=") sum)*
     sum        := product (("+" | "-") product)*
     product    := factor (("*" | "/") factor)*
-    factor     := ("-" | "+") factor | number [unit] | name | "abs" "(" either ")" | "(" either ")"
+    factor     := ("-" | "+") factor | number [unit] | name | call | "(" either ")"
+    call       := "abs" "(" either ")" | "rate" "(" name ")"
 
 A unit stands right after its number and has no blank inside ("100 mm", "10 m/min", "6000 1/min"; "N m" is the
-one exception). What could be a unit is one: write "100 / mm_count", or "2 * s", where a channel is meant.
+one exception). What could be a unit is one: write "100 / mm_count", or "2 * s", where a channel is meant. A rate is of
+one channel and its own samples, and so in `derive` only: whoever else reads an expression has them on a grid.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from typing import Any, cast
 import numpy as np
 
 from thermodata.calibration.expression import nodes
-from thermodata.calibration.expression.evaluation import Evaluation, Logic, Number, logic, number
+from thermodata.calibration.expression.evaluation import Evaluation, Logic, Number, logic, number, rate_of
 from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
@@ -41,11 +43,13 @@ _LONGEST, _DEEPEST = 2000, 60
 
 @dataclass(frozen=True, slots=True)
 class Expression:
-    """A parsed expression. names: the channels that it reads. logical: whether it gives true or false."""
+    """A parsed expression. names: the channels that it reads; rated: those among them whose rate it takes, which
+    `values` hold by `rate_of` beside them. logical: whether it gives true or false."""
 
     text: str
     tree: Node
     names: frozenset[str]
+    rated: frozenset[str] = frozenset()
 
     @property
     def logical(self) -> bool:
@@ -80,7 +84,8 @@ class Expression:
 
     def unit(self, units: Mapping[str, str]) -> str | None:
         """The unit that `evaluate` gives with these units of the channels; "" for none, None for unknown."""
-        result = number(Evaluation({n: np.zeros(1) for n in self.names}, units, self.text).of(self.tree))
+        keys = (*self.names, *map(rate_of, self.rated))
+        result = number(Evaluation({key: np.zeros(1) for key in keys}, units, self.text).of(self.tree))
         return result.unit
 
     def _conversion(self, result: Number, target: str) -> tuple[float, float]:
@@ -106,22 +111,22 @@ class Expression:
 
 
 @lru_cache(maxsize=1024)
-def parse(text: str) -> Expression:
-    """Parses `text`; UsageError with the place of what is wrong."""
+def parse(text: str, *, rates: bool = False) -> Expression:
+    """Parses `text`; UsageError with the place of what is wrong. rates: whether it may take the rate of a channel."""
     if not isinstance(text, str) or not text.strip():
         raise UsageError("an empty expression", expected="for example 'T_nut_Z - T_amb'", got=repr(text))
     if len(text) > _LONGEST:
         raise UsageError("an expression too long", expected=f"at most {_LONGEST} characters", got=str(len(text)))
-    parser = _Parser(text)
+    parser = _Parser(text, rates)
     tree = parser.either()
     parser.end()
-    return Expression(text, tree, frozenset(parser.names))
+    return Expression(text, tree, frozenset(parser.names), frozenset(parser.rated))
 
 
 class _Parser:
-    def __init__(self, text: str) -> None:
-        self.text, self.at, self.depth, self.size = text, 0, 0, 0
-        self.names: set[str] = set()
+    def __init__(self, text: str, rates: bool) -> None:
+        self.text, self.rates, self.at, self.depth, self.size = text, rates, 0, 0, 0
+        self.names, self.rated = set[str](), set[str]()
         self.kind, self.token = "", ""
         self._next()
 
@@ -231,14 +236,40 @@ class _Parser:
         name, at = self.token, self.at - len(self.token)
         self._next()
         if self._take("("):
+            if name == "rate":
+                return self._rate(at)
             if name != "abs":
                 self.token = name
-                raise self._fail(f"no function '{name}'", "abs", at)
+                raise self._fail(f"no function '{name}'", "abs, rate", at)
             return nodes.Absolute(self._closed(self._nested(self.either)))
         if name == "abs":
             raise self._fail("'abs' without its argument", "abs(...)", at)
         self.names.add(name)
         return nodes.Name(name)
+
+    def _rate(self, at: int) -> Node:
+        """Behind 'rate('."""
+        if not self.rates:
+            self.token = "rate"
+            raise self._fail(
+                "a rate is of a channel's own samples, which only 'derive' has",
+                "a channel",
+                at,
+                "derive a channel, v: {derive: rate(x_pos), quantity: feed}, and write v here",
+            )
+        name = self.token
+        one = self.kind == "name" and name not in _WORDS
+        if one:
+            self._next()
+        if not one or not self._take(")"):
+            raise self._fail(
+                "a rate is of one channel, as it was logged",
+                "rate(x_pos)",
+                hint="derive the rate of each channel as a channel of its own, and compute with these",
+            )
+        self.names.add(name)
+        self.rated.add(name)
+        return nodes.Rate(name)
 
     def _number(self) -> Node:
         value = float(self.token)

@@ -74,7 +74,7 @@ def _with_their_parts(known: Campaign, channels: Collection[str]) -> set[str]:
         wanted.add(name)
         channel = known.channels[name]
         if channel.derive is not None:
-            rest += parse(channel.derive).names
+            rest += parse(channel.derive, rates=True).names
         if channel.source is not None:
             rest += [c for by in known.sources[channel.source].clock.by for c in (by.here, by.there)]
     return wanted

@@ -44,7 +44,7 @@ class Channel(Strict):
 
     source: key of `sources`
     signal: its name in the file; a unit in brackets behind the name may be left out
-    derive: an expression over other channels: (dY_high - dY_low) / 100 mm
+    derive: an expression over other channels: (dY_high - dY_low) / 100 mm; rate(x_pos) is that of a logged position
     schedule: [[time, value], ...] for what nobody logged but everybody knows; held between
     quantity: what it is; its canonical unit follows. Left out, it is what `unit` leaves no choice of (degC, rpm, kW,
         m/min), and of a length a displacement with `axis` or at tcp, a position at axis.*

@@ -25,6 +25,7 @@ from thermodata.store.tidy.rows.timeline import Timeline
 from thermodata.store.tidy.values.chunk import Column
 from thermodata.store.tidy.values.cut_start import driven_before
 from thermodata.store.tidy.values.finer_steps import finer_than_declared
+from thermodata.store.tidy.values.rated import told_of_rates
 from thermodata.store.tidy.values.series import Member, TestSeries
 
 if TYPE_CHECKING:
@@ -128,11 +129,13 @@ def _where_they_lie(series: TestSeries, member: Member) -> str:
 
 def _as_written(series: TestSeries, member: Member, here: Sequence[Bound], rows: int) -> tuple[str, ...]:
     """What is told of channels that are held for what their rows show, or may have to be."""
-    held = [b for b in here if b.on_change]
+    held = [b for b in here if b.on_change and b.signal is not None]
+    rests = [b.name for b in here if b.on_change and b.signal is None]
     by_hand = [b.name for b in held if b.channel.quantity not in SET or not series.has_no_rate(member)]
     asked_of = [b.name for b in here if not b.on_change and series.by_hand(b) == "asked"]
     no_rate = [b.name for b in held if b.name not in by_hand]
-    return told(no_rate) + told(by_hand, by_hand=True) + tuple(asked(n, rows) for n in asked_of)
+    of_hands = told(no_rate) + told(by_hand, by_hand=True) + tuple(asked(n, rows) for n in asked_of)
+    return of_hands + told_of_rates(rests)
 
 
 def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> None:

@@ -40,7 +40,8 @@ def find_sample(
     """The sample of a channel nearest to t_s [s from the test's start], and where it stands in the source files.
 
     raw: file, hash, row (counted from 0) and raw value; None for derived and scheduled channels, whose `operands`
-    tell the rows that they were made from: two where one was interpolated. again: reads a row in its file once more.
+    tell the rows that they were made from: two where one was interpolated, or a rate was taken. again: reads a row in
+    its file once more.
     """
     row = _tidy_row(con, campaign, test, channel, t_s)
     series = read_series(con, store, campaign, test)
@@ -57,10 +58,11 @@ def find_sample(
     if bound is not None and bound.signal is not None:
         sample["raw"] = _raw(series, member, at, bound.signal.name, again)
     elif bound is not None and bound.channel.derive is not None:
+        rated = _rated_channels(series, channel["channel"])
         sample["operands"] = [
             item
             for name in _logged_channels(series, channel["channel"])
-            for item in _behind(series, name, member, row["t_ns"], at, again)
+            for item in _behind(series, name, member, row["t_ns"], at, again, rated=name in rated)
         ]
     return sample
 
@@ -125,13 +127,23 @@ def _logged_channels(series: TestSeries, name: str) -> list[str]:
     )
 
 
-def _behind(series: TestSeries, name: str, home: Member, t_ns: int, at: int, again: Again | None) -> list[Answer]:
+def _rated_channels(series: TestSeries, name: str) -> set[str]:
+    """Those among them whose rate it takes."""
+    text = series.plan.bound[name].channel.derive if name in series.plan.bound else None
+    if text is None:
+        return set()
+    return set(derive.rated(text)).union(*(_rated_channels(series, n) for n in derive.names(text)))
+
+
+def _behind(
+    series: TestSeries, name: str, home: Member, t_ns: int, at: int, again: Again | None, *, rated: bool
+) -> list[Answer]:
     bound = series.plan.bound[name]
     member = (bound.source, bound.stream)
     if bound.signal is None or member[0] == SCHEDULE:
         return [{"channel": name, "schedule": True}]
     if member == home:
-        rows = [at]
+        rows = series.rows_of_rate(bound, at) if rated else [at]
     else:
         line = series.timeline(member)
         after = line.find(t_ns)

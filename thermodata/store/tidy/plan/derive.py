@@ -17,7 +17,7 @@ from thermodata.store.tidy.plan.plan import Bound
 def _parsed(text: str) -> Any:
     from thermodata.calibration.expression.parser import parse
 
-    return parse(text)
+    return parse(text, rates=True)
 
 
 def names(text: str) -> frozenset[str]:
@@ -26,8 +26,14 @@ def names(text: str) -> frozenset[str]:
     return found
 
 
+def rated(text: str) -> frozenset[str]:
+    """The channels among them whose rate it takes."""
+    found: frozenset[str] = _parsed(text).rated
+    return found
+
+
 def evaluate(bound: Bound, values: Mapping[str, Array], units: Mapping[str, str]) -> Float1D:
-    """The derived values in the channel's canonical unit, shape (n,)."""
+    """The derived values in the channel's canonical unit, shape (n,). values: also `rate_of` those that are rated."""
     target = canonical(bound.channel.quantity)
     own = bound.unit or target
     factor, offset = linear_conversion(own, target)

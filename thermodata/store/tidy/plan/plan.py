@@ -252,7 +252,7 @@ def operands(expression: str) -> list[str]:
     """The channels of an expression in the order of their first appearance."""
     from thermodata.calibration.expression.parser import parse
 
-    words, names = re.findall(r"[^\W\d]\w*(?:\.[^\W\d]\w*)*", expression), parse(expression).names
+    words, names = re.findall(r"[^\W\d]\w*(?:\.[^\W\d]\w*)*", expression), parse(expression, rates=True).names
     return list(dict.fromkeys(word for word in words if word in names))
 
 
@@ -272,5 +272,20 @@ def _bind_derived(plan: TestPlan, channels: Mapping[str, Channel], name: str, ch
     if home is None:
         plan.problems.append(f"channel '{name}': derive names no channel: {channel.derive}")
         return None
+    if (other := _rated_elsewhere(plan, channel, home)) is not None:
+        plan.problems.append(
+            f"channel '{name}': a rate is of the rows of its own log, and '{other.name}' has none where '{home.name}' "
+            f"stands; try: derive rate({other.name}) as a channel of its own, and write that one here"
+        )
+        return None
     plan.bound[name] = Bound(name, channel, home.source, home.stream, None, channel.unit)
     return plan.bound[name]
+
+
+def _rated_elsewhere(plan: TestPlan, channel: Channel, home: Bound) -> Bound | None:
+    """A channel whose rate an expression takes, and that has no rows of its own where it is derived."""
+    from thermodata.calibration.expression.parser import parse
+
+    rated = [plan.bound[n] for n in sorted(parse(channel.derive or "", rates=True).rated)]
+    there = (home.source, home.stream)
+    return next((b for b in rated if b.signal is None or (b.source, b.stream) != there), None)

@@ -15,6 +15,8 @@ from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.plan import derive
 from thermodata.store.tidy.plan.plan import effective
 
+RATED = "position"  # the one quantity that has a rate
+
 
 def check_derived(campaign: Campaign) -> None:
     """UsageError at the first `derive` that is no expression, names no channel of the campaign, or derives from
@@ -47,6 +49,8 @@ def _check_derive(campaign: Campaign, channels: Mapping[str, Channel], name: str
     for used in _names_in(channels[name].derive or "", where):
         if used not in campaign.channels:
             raise unknown_channel(used, list(campaign.channels), where=where)
+    for rated in sorted(derive.rated(channels[name].derive or "")):
+        _check_rated(rated, channels.get(rated, campaign.channels[rated]), where)
     circle = _circle(channels, (name,), where, set())
     if circle:
         raise UsageError(
@@ -55,6 +59,26 @@ def _check_derive(campaign: Campaign, channels: Mapping[str, Channel], name: str
             expected="an expression over channels that are logged in the end",
             got=" -> ".join(circle),
             hint=f"derive '{circle[-2]}' from something else",
+        )
+
+
+def _check_rated(name: str, channel: Channel, where: str) -> None:
+    """UsageError where the rate of a channel would be none of a movement."""
+    if channel.signal is None:
+        raise UsageError(
+            f"rate({name}) is of no logged channel",
+            where=where,
+            expected="a channel with 'signal': a rate is of the samples of one log",
+            got=f"'{name}' is {'derived' if channel.derive is not None else 'scheduled'}",
+            hint="take the rate of what it derives from, as a channel of its own" if channel.derive else None,
+        )
+    if channel.quantity != RATED:
+        raise UsageError(
+            f"rate({name}) is of a {channel.quantity.replace('_', ' ')}",
+            where=where,
+            expected="a position: the rate of what a sensor reads is mostly that of its noise and its steps, and an "
+            "angle starts anew",
+            got=f"quantity: {channel.quantity}",
         )
 
 
@@ -79,11 +103,19 @@ def _names_in(text: str, where: str) -> frozenset[str]:
         raise error.at(f"{where}, {error.where}" if error.where else where) from error
 
 
+def _names_of_rule(text: str, where: str) -> frozenset[str]:
+    """The same of a rule over samples, which has no rates."""
+    try:
+        return parse(text).names
+    except UsageError as error:
+        raise error.at(f"{where}, {error.where}" if error.where else where) from error
+
+
 def _check_rule(campaign: Campaign, channels: Mapping[str, Channel], test: Test, where: str) -> None:
     spec = long_form(test.measuring)
     if spec.when is not None:
         place = where if isinstance(test.measuring, str) else f"{where}.when"
-        for name in sorted(_names_in(spec.when, place)):
+        for name in sorted(_names_of_rule(spec.when, place)):
             _known(name, campaign, place)
         _compares(spec.when, channels, place)
     place = f"{where}.in_range"

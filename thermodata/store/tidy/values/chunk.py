@@ -9,6 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
+from thermodata.calibration.expression.evaluation import rate_of
 from thermodata.calibration.quality.limit import codes_of
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
@@ -38,6 +39,9 @@ class Streams(Protocol):
 
     def sampled(self, name: str, t_ns: Int1D) -> tuple[Array, Array]:
         """(values, flags) of a channel of any stream at other times, shape of t_ns."""
+
+    def rated(self, bound: Bound, start: int, stop: int) -> tuple[Array, Array]:
+        """(rates by the second, flags) of a channel on rows start to stop of its own stream, shape (stop - start,)."""
 
 
 @dataclass(slots=True)
@@ -172,7 +176,10 @@ class Chunk:
                 else self.series.sampled(name, self.t_ns)
             )
             values[name], flags = operand, flags | marks
-        units = {n: canonical(self.series.plan.bound[n].channel.quantity) for n in values}
+        for name in derive.rated(text):
+            values[rate_of(name)], marks = self.series.rated(self.series.plan.bound[name], self.start, self.stop)
+            flags = flags | marks
+        units = {n: canonical(self.series.plan.bound[n].channel.quantity) for n in derive.names(text)}
         return derive.evaluate(bound, values, units), flags
 
 

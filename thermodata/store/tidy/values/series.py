@@ -12,11 +12,12 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
 from thermodata.schema.units.quantity import HELD_QUANTITIES
 from thermodata.store.tidy.clock.source_clock import Clock, Span, build, last_ns
-from thermodata.store.tidy.plan import schedule
+from thermodata.store.tidy.plan import derive, schedule
 from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.rows.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
 from thermodata.store.tidy.rows.timeline import Timeline, given_timeline
 from thermodata.store.tidy.values.chunk import Chunk
+from thermodata.store.tidy.values.rated import Pace, pace_of, rate_on_rows, rows_of_rate
 
 Member = tuple[str, str]
 _SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length
@@ -53,6 +54,7 @@ class TestSeries:
         self._sampled: dict[str, tuple[Int1D, Array, Array]] = {}
         self._no_rate: dict[Member, bool] = {}
         self._by_hand: dict[str, Written | None] = {}
+        self._paces: dict[str, Pace] = {}
 
     def timeline(self, member: Member) -> Timeline:
         """The rows of a stream; those of the schedule are a grid of a minute plus its changes."""
@@ -72,7 +74,9 @@ class TestSeries:
 
     def as_written(self, bound: Bound) -> Bound:
         """The same, with what its rows show: what is set stands until the next row of a log that has no rate, or that
-        somebody wrote by hand."""
+        somebody wrote by hand; and so does the rate of what was written on change."""
+        if bound.channel.derive is not None:
+            return replace(bound, on_change=True) if self._rates_stand(bound.channel.derive) else bound
         if bound.channel.quantity not in BY_HAND or bound.is_said or bound.signal is None:
             return bound
         member = (bound.source, bound.stream)
@@ -102,6 +106,27 @@ class TestSeries:
             )
             self._by_hand[bound.name] = told
         return self._by_hand[bound.name]
+
+    def rated(self, bound: Bound, start: int, stop: int) -> tuple[Array, Array]:
+        """(rates in the canonical unit by the second, flags) of a logged channel on rows start to stop of its own
+        stream; both of shape (stop - start,)."""
+        return rate_on_rows(self, bound, self._pace(bound), start, stop)
+
+    def rows_of_rate(self, bound: Bound, row: int) -> list[int]:
+        """The rows of its stream between which its rate on a row was taken."""
+        return rows_of_rate(self, bound, self._pace(bound), row)
+
+    def _rates_stand(self, text: str) -> bool:
+        """Whether an expression, or one that it derives from, takes the rate of what was written on change."""
+        operands = [self.plan.bound[n] for n in derive.names(text)]
+        return any(self._pace(self.plan.bound[n]).on_change for n in derive.rated(text)) or any(
+            b.channel.derive is not None and self._rates_stand(b.channel.derive) for b in operands
+        )
+
+    def _pace(self, bound: Bound) -> Pace:
+        if bound.name not in self._paces:
+            self._paces[bound.name] = pace_of(self, bound)
+        return self._paces[bound.name]
 
     def rows(self, member: Member) -> Rows:
         """Which rows of a stream are the test's, and which its history."""
