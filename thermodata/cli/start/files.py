@@ -81,7 +81,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         )
     session.say(
         f"{counted(made.files, 'file')}, {counted(len(draft.tests), 'test')}, {counted(len(draft.sources), 'source')}, "
-        f"{counted(sum(c.said.quantity is not None for c in draft.channels), 'channel')}; "
+        f"{counted(sum(c.said.quantity is not None for c in draft.channels) + len(draft.derived), 'channel')}; "
         f"{counted(made.questions, 'line', 'holds', 'hold')} a question: "
         f"grep '# ?' {made.campaign}"
     )

@@ -48,6 +48,18 @@ class DraftChannel:
 
 
 @dataclass(frozen=True, slots=True)
+class DerivedChannel:
+    """channels.<name> of what no file has, and another channel tells. why: it is proposed."""
+
+    name: str
+    derive: str
+    quantity: str
+    unit: str
+    at: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
 class DraftJump:
     """calibrations.<name>: a jump test whose moves nobody but the lab knows. seen: its steps as they were logged;
     sheet: of a workbook whose sheets are tests."""
@@ -95,3 +107,4 @@ class Draft:
     notes: tuple[str, ...] = field(default_factory=tuple)
     failed: tuple[tuple[str, str], ...] = ()
     unused: tuple[str, ...] = ()
+    derived: tuple[DerivedChannel, ...] = ()

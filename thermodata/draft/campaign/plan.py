@@ -11,6 +11,7 @@ from thermodata.draft.campaign.by_hand import asked_whether_held
 from thermodata.draft.campaign.channels import channels_of
 from thermodata.draft.campaign.drafted_sources import Beside, drafted_sources
 from thermodata.draft.campaign.drafted_tests import drafted_tests
+from thermodata.draft.campaign.feeds_of_positions import feeds_of_positions
 from thermodata.draft.campaign.files_apart import files_apart
 from thermodata.draft.campaign.hardly_looked_at import hardly_looked_at
 from thermodata.draft.campaign.jump_sources import with_their_sources
@@ -74,6 +75,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         ),
         _but_of(table, found.failed),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
+        feeds_of_positions(of_groups.channels, groups),
     )
 
 

@@ -69,7 +69,8 @@ class Sample:
     for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
     failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file;
     mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
-    the file that the courses are of, where that is not all of it."""
+    the file that the courses are of, where that is not all of it; periods_s: how far the rows of a stream are usually
+    apart."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -84,6 +85,7 @@ class Sample:
     set_back: SetBack | None = None
     mended: tuple[str, ...] = ()
     extents: Mapping[tuple[str, str], tuple[float, float]] = field(default_factory=dict)
+    periods_s: Mapping[str, float] = field(default_factory=dict)
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
@@ -134,6 +136,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         repeats,
         first_of(clocks),
         notes_of(clocks),
+        periods_s={stream: clock.period_s for stream, clock in clocks.items()},
     )
 
 

@@ -14,6 +14,7 @@ from thermodata.store.raw.order import find_order
 
 _REPEATED = 0.9  # of the rows that go through times again: a copy of rows, which ingest leaves out
 _LEAST = 20
+_LOOKED_AT = 100_000  # rows, for a period
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +43,12 @@ class Clock:
         self.values.append(np.zeros(block.t_ns.size) if numbers is None else numbers.astype(np.float64))
         self.steps.add(block.t_ns)
         self.leap.add(block.t_ns)
+
+    @property
+    def period_s(self) -> float:
+        """How far its rows are usually apart; infinite of a single time."""
+        steps = np.diff(np.unique(np.concatenate(self.t_ns)[:_LOOKED_AT]))
+        return float(np.median(steps)) / 1e9 if len(steps) else float("inf")
 
     def notes(self) -> tuple[str, ...]:
         """What an ingest will say that it mended: leaps ahead, small steps back, strays. Rows that stand twice, or

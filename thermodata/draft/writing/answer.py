@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | N
         "questions": questions,
         "sources": [_source(s) for s in draft.sources],
         "channels": [_channel(c) for c in draft.channels if c.said.quantity],
+        "derived": [asdict(c) for c in draft.derived],
         "left_out": [_channel(c) for c in draft.channels if not c.said.quantity],
         "calibrations": [_jump(j) for j in draft.jumps] + scales,
         "tests": [_test(t) for t in draft.tests],

@@ -36,7 +36,8 @@ class _Known:
 def model_text(draft: Draft) -> str | None:
     """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
     said = {c.name: c.said for c in draft.channels}
-    return _text(draft.campaign, {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity})
+    known = {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
+    return _text(draft.campaign, {**known, **{c.name: _Known(c.quantity, c.at, None) for c in draft.derived}})
 
 
 def responses_of_draft(draft: Draft) -> list[str]:

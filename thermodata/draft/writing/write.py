@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
-from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.campaign.parts import DerivedChannel, Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.probes.which_way import calibration_for
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
 from thermodata.schema.agreed.left_out import left_out
@@ -51,6 +51,7 @@ def text_of(draft: Draft) -> str:
         else "channels: {}                       # ? no signal whose quantity can be told"
     )
     lines += [_channel(c) for c in draft.channels]
+    lines += [_derived(c) for c in draft.derived]
     lines += _speed_nobody_logged(draft)
     live = [j for j in draft.jumps if j.axis and j.signal]
     exported = [c for c in draft.channels if c.as_exported]
@@ -142,6 +143,11 @@ def _channel(c: DraftChannel) -> str:
         keys |= {"quantity": _OPEN, "unit": said.unit or _OPEN}
     mark = "  " if said.quantity else "  # "
     return f"{mark}{c.name}: {{{flow(keys)}}}   # {one_line('; '.join(filter(None, notes)))}"
+
+
+def _derived(c: DerivedChannel) -> str:
+    keys = {"derive": c.derive, "quantity": c.quantity, "unit": c.unit, "at": c.at}
+    return f"  {c.name}: {{{flow(keys)}}}   # proposed: {one_line(c.why)}"
 
 
 def _speed_nobody_logged(draft: Draft) -> list[str]:
