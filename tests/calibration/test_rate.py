@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from thermodata.calibration.expression.evaluation import rate_of
 from thermodata.calibration.expression.parser import parse
-from thermodata.calibration.rate import NONE, PAUSES, rates, stood_in_pauses, stretches, usual_step_ns
+from thermodata.calibration.rate import NONE, PAUSES, lost_in_turns, rates, stood_in_pauses, stretches, usual_step_ns
 from thermodata.errors import UsageError
 
 S = 10**9
@@ -77,6 +77,23 @@ def test_a_log_that_goes_on_from_where_it_was_stood_in_its_pauses() -> None:
     assert not stood_in_pauses(t_ns[: -moving.size], rests[: -moving.size], LONGEST)  # a pause too few
     assert not stood_in_pauses(t_ns, np.round(rests, -2), LONGEST)  # steps as large as the range
     assert not stood_in_pauses(t_ns[:1], rests[:1], LONGEST)
+
+
+@pytest.mark.parametrize("stroke_s", [2.2, 4.7, 11.3, 31.7])
+def test_what_turns_between_samples_is_told(stroke_s: float) -> None:
+    t_s = np.arange(0, 4000.0)
+    x = 300 * np.abs(t_s / stroke_s % 2 - 1)
+    t_ns = (t_s * S).astype(np.int64)
+    found = rates(t_ns, x, *stretches(t_ns, x, longest_ns=LONGEST))
+    lost = 1 - np.abs(found).mean() / (300 / stroke_s)
+    assert lost_in_turns(t_ns, x, LONGEST) == pytest.approx(lost, rel=0.15)
+
+
+def test_nothing_is_lost_of_what_does_not_move() -> None:
+    noise = np.random.default_rng(1).normal(0, 0.001, 500)
+    t_ns = np.arange(500) * S
+    assert lost_in_turns(t_ns, np.where(t_ns < 250 * S, 0.0, 100.0) + noise, LONGEST) == 0
+    assert lost_in_turns(t_ns[:0], noise[:0], LONGEST) == 0
 
 
 @given(st.data())

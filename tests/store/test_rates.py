@@ -74,6 +74,8 @@ def test_an_axis_that_goes_to_and_fro_has_its_feed(tmp_path: Path) -> None:
     _write(tmp_path / "day_plc.csv", t_s, _to_and_fro(t_s))
     store, summary = _ingest(tmp_path)
     assert not summary.losses
+    (told,) = [n for n in summary.notes if "v: the axis often turns" in n]
+    assert "about 6 % too small" in told
     found = _stored(store)
     np.testing.assert_allclose(np.abs(found["value"]), 3.0, rtol=1e-6)
     np.testing.assert_allclose(found["value"][:8], -3.0)

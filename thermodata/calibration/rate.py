@@ -17,6 +17,7 @@ from thermodata.plugin import Bool1D, Float1D, Int1D
 NONE = -1  # no row
 # pauses, and the share of them, that a log written on change goes on from; a step is small that is no more of the range
 PAUSES, USUAL, SMALL = 4, 0.9, 0.1
+STILL = 1e-3  # of its range, which it moves while it is held in place
 
 
 def stretches(
@@ -67,6 +68,18 @@ def stood_in_pauses(t_ns: Int1D, values: Float1D, longest_ns: int) -> bool:
     return step <= SMALL * float(np.ptp(values[there])) and goes_on >= USUAL
 
 
+def lost_in_turns(t_ns: Int1D, values: Float1D, longest_ns: int) -> float:
+    """How much of the size of its rate is lost where it turns between two samples, as a share of all, at an even speed:
+    half of each such stretch, on the average. Shapes (n,), times non-decreasing."""
+    there = np.flatnonzero(np.isfinite(values))
+    times, first = np.unique(t_ns[there], return_index=True)
+    x = values[there[first]]
+    steps = np.where(np.diff(times) <= longest_ns, np.diff(x), 0.0)
+    ways = np.sign(steps) * (np.abs(steps) > STILL * float(np.ptp(x))) if len(x) else steps
+    moving, turns = np.count_nonzero(ways), np.count_nonzero(ways[1:] * ways[:-1] < 0)
+    return 0.5 * turns / moving if moving else 0.0
+
+
 def usual_step_ns(t_ns: Int1D, values: Float1D) -> int:
     """How far samples that have a value are usually apart [ns]; 0 of less than two. Shapes (n,), times
     non-decreasing."""
@@ -74,4 +87,4 @@ def usual_step_ns(t_ns: Int1D, values: Float1D) -> int:
     return int(np.median(steps)) if len(steps) else 0
 
 
-__all__ = ["NONE", "rates", "stood_in_pauses", "stretches", "usual_step_ns"]
+__all__ = ["NONE", "lost_in_turns", "rates", "stood_in_pauses", "stretches", "usual_step_ns"]

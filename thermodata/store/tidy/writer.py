@@ -25,7 +25,7 @@ from thermodata.store.tidy.rows.timeline import Timeline
 from thermodata.store.tidy.values.chunk import Column
 from thermodata.store.tidy.values.cut_start import driven_before
 from thermodata.store.tidy.values.finer_steps import finer_than_declared
-from thermodata.store.tidy.values.rated import told_of_rates
+from thermodata.store.tidy.values.rated import told_of_rates, told_of_turns
 from thermodata.store.tidy.values.series import Member, TestSeries
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _as_written(series: TestSeries, member: Member, here: Sequence[Bound], rows:
     asked_of = [b.name for b in here if not b.on_change and series.by_hand(b) == "asked"]
     no_rate = [b.name for b in held if b.name not in by_hand]
     of_hands = told(no_rate) + told(by_hand, by_hand=True) + tuple(asked(n, rows) for n in asked_of)
-    return of_hands + told_of_rates(rests)
+    return of_hands + told_of_rates(rests) + told_of_turns({b.name: series.lost_in_turns(b) for b in here})
 
 
 def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> None:

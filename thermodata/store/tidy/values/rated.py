@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from thermodata.calibration.rate import NONE, rates, stood_in_pauses, stretches, usual_step_ns
+from thermodata.calibration.rate import NONE, lost_in_turns, rates, stood_in_pauses, stretches, usual_step_ns
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import Flag
@@ -17,6 +17,7 @@ from thermodata.store.tidy.rows.on_change import MOST_ROWS
 from thermodata.store.tidy.rows.timeline import Timeline
 
 PERIODS = 3.5  # that two samples may be apart, as bins are filled over
+TOLD = 0.05  # of the size of a rate
 MOVES_NS = 10 * 10**9  # so far apart rows of a log written on change are no course of a movement
 
 
@@ -34,10 +35,12 @@ class Series(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """on_change: whether a value stands until the next row; longest_ns: between two samples that tell of a movement."""
+    """on_change: whether a value stands until the next row; longest_ns: between two samples that tell of a movement;
+    lost: of the size of the rate, in turns between two samples, as a share."""
 
     on_change: bool
     longest_ns: int
+    lost: float = 0.0
 
 
 def pace_of(series: Series, bound: Bound) -> Pace:
@@ -54,7 +57,7 @@ def pace_of(series: Series, bound: Bound) -> Pace:
     longest_ns = int(PERIODS * usual_step_ns(t_ns, values))
     if not bound.is_said and stood_in_pauses(t_ns, values, max(longest_ns, MOVES_NS)):
         return Pace(True, MOVES_NS)
-    return Pace(False, longest_ns)
+    return Pace(False, longest_ns, lost_in_turns(t_ns, values, longest_ns))
 
 
 def rate_on_rows(series: Series, bound: Bound, pace: Pace, start: int, stop: int) -> tuple[Array, Array]:
@@ -106,4 +109,14 @@ def told_of_rates(names: Sequence[str]) -> tuple[str, ...]:
         )
         if names
         else ()
+    )
+
+
+def told_of_turns(lost: Mapping[str, float]) -> tuple[str, ...]:
+    """What is said of channels that take the rate of what turns so often that much of it is lost; nothing of others."""
+    return tuple(
+        f"{name}: the axis often turns between two of its samples, which makes the size of its rate about "
+        f"{100 * share:.0f} % too small: its gain comes out larger by that; log the position faster"
+        for name, share in lost.items()
+        if share > TOLD
     )

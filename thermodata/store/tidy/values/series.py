@@ -112,6 +112,11 @@ class TestSeries:
         stream; both of shape (stop - start,)."""
         return rate_on_rows(self, bound, self._pace(bound), start, stop)
 
+    def lost_in_turns(self, bound: Bound) -> float:
+        """How much of the size of the rates that a derived channel takes is lost where an axis turns, as a share."""
+        rated = derive.rated(bound.channel.derive) if bound.channel.derive is not None else ()
+        return max((self._pace(self.plan.bound[n]).lost for n in rated), default=0.0)
+
     def rows_of_rate(self, bound: Bound, row: int) -> list[int]:
         """The rows of its stream between which its rate on a row was taken."""
         return rows_of_rate(self, bound, self._pace(bound), row)
