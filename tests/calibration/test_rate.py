@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.calibration.expression.evaluation import rate_of
@@ -97,6 +97,7 @@ def test_nothing_is_lost_of_what_does_not_move() -> None:
 
 
 @given(st.data())
+@settings(deadline=None)
 def test_a_row_hangs_on_those_near_it_alone(data: st.DataObject) -> None:
     steps = data.draw(st.lists(st.sampled_from([0, 100_000_000, S, 3 * S, 4 * S, 60 * S]), min_size=1, max_size=40))
     t_ns = np.cumsum(np.array(steps, np.int64))
