@@ -44,6 +44,23 @@ def test_a_date_of_two_digits_has_its_readings(name: str, days: tuple[str, ...])
 
 
 @pytest.mark.parametrize(
+    ("name", "date", "start"),
+    [
+        ("S6000 31.03.2026 08_10_00 1", "2026-03-31", "2026-03-31 08:10:00"),
+        ("S8000 03.03.2026 08_02_11 1", "2026-03-03", "2026-03-03 08:02:11"),
+        ("Test 3.12.2026 0810", "2026-12-03", "2026-12-03 08:10:00"),
+        ("Test 31.03.2026", "2026-03-31", None),
+        ("Run A 5_4_2026 08_10_05 1", None, None),
+        ("Run 31-03-2026 08-10", None, None),
+        ("S8000 12 2026-03-02 0800", "2026-03-02", "2026-03-02 08:00:00"),
+    ],
+)
+def test_a_year_behind_a_day_and_a_month_begins_no_date(name: str, date: str | None, start: str | None) -> None:
+    said = said_by([name])
+    assert (said.conditions.get("date"), said.start) == (date, start)
+
+
+@pytest.mark.parametrize(
     ("names", "asked"),
     [
         (["Prova_02-03-26.txt", "Prova_03-04-26.txt"], "the name says 2026-03-02 or 2026-02-03"),

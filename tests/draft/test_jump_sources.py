@@ -50,3 +50,47 @@ def test_a_jump_test_among_tables_keeps_the_source_of_the_tests(tmp_path: Path) 
     draft = draft_files(tmp_path).draft
     assert [j.source for j in draft.jumps] == [draft.sources[0].name]
     assert len(draft.sources) == 1
+
+
+def capacitive(folder: Path, name: str, mm: list[float], *more: tuple[str, list[float]]) -> None:
+    """A log of a sensor whose channels are lengths in mm, called by their numbers."""
+    head = ["Zeit [s]", "Kanal 1 [mm]", *(n for n, _ in more)]
+    rows = zip(mm, *(values for _, values in more), strict=True)
+    lines = [";".join(map(str, (i, *row))) for i, row in enumerate(rows)]
+    (folder / f"{name}.csv").write_text("\n".join([";".join(head), *lines, ""]))
+
+
+@pytest.mark.parametrize("name", ["Sprungtest_Z_capa", "Schwingung_Z"])
+def test_a_probe_in_mm_moves_in_a_file_that_is_called_a_jump_test(tmp_path: Path, name: str) -> None:
+    for test in ("V1", "V2"):
+        capacitive(tmp_path, test, [0.5 + 1e-5 * i for i in range(900)])
+    capacitive(tmp_path, name, [v / 10 for v in staircase()])
+    draft = draft_files(tmp_path).draft
+    (probe,) = draft.channels
+    named = name.startswith("Sprung")
+    assert [(j.file, j.axis, j.unit) for j in draft.jumps] == ([(f"{name}.csv", "Z", "mm")] if named else [])
+    assert probe.said.quantity == ("displacement" if named else "position")
+    assert (name in [t.id for t in draft.tests]) is not named
+    if named:
+        assert probe.said.questions == (f"axis: Z by {name}.csv?",)
+        assert "until they stand here, Kanal_1 has no values" in draft.jumps[0].question
+
+
+@pytest.mark.parametrize(
+    "other",
+    [("Weg X [mm]", [0.9 * i for i in range(240)]), ("Drehzahl [rpm]", [3000.0] * 240)],
+    ids=["axis", "spindle"],
+)
+def test_an_axis_that_travels_and_a_spindle_that_turns_are_no_jump_test(
+    tmp_path: Path, other: tuple[str, list[float]]
+) -> None:
+    capacitive(tmp_path, "Sprung_Z", [5.0] * 240, other)
+    assert not draft_files(tmp_path).draft.jumps
+
+
+def test_what_is_called_as_an_axis_beside_a_spindle_is_its_position(tmp_path: Path) -> None:
+    for test, values in (("V1", [0.5 + 1e-5 * i for i in range(900)]), ("Sprung_Z", [v / 10 for v in staircase()])):
+        capacitive(tmp_path, test, values, ("Drehzahl [rpm]", [0.0] * len(values)))
+        path = tmp_path / f"{test}.csv"
+        path.write_text(path.read_text().replace("Kanal 1 [mm]", "Z [mm]"))
+    assert not draft_files(tmp_path).draft.jumps

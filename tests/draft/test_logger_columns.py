@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.draft.make import draft_files
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import values_of
 from thermodata.schema.files.campaign import Campaign
@@ -144,3 +145,20 @@ def test_a_quality_that_flags_nothing_and_a_number_that_changes_are_asked(tmp_pa
     _, text = drafted(tmp_path, say)
     assert "# tag_id: {" in text
     assert "# weld_quality: {" in text
+
+
+def test_what_was_asked_of_influxdb_is_no_channel(tmp_path: Path) -> None:
+    head = (
+        "#group,false,false,true,true,false,true,false,false\n"
+        "#datatype,string,long,dateTime:RFC3339,dateTime:RFC3339,dateTime:RFC3339,string,double,double\n"
+        "#default,_result,,,,,,,\n"
+        ",result,table,_start,_stop,_time,host,dz_um,t_bed\n"
+    )
+    span = "2026-05-18T06:00:00Z,2026-05-18T08:00:00Z"
+    rows = [
+        f",,0,{span},2026-05-18T06:{k // 60:02d}:{k % 60:02d}Z,edge1,{k / 9:.3f},{20 + k / 90:.3f}" for k in range(200)
+    ]
+    (tmp_path / "p1.csv").write_text(head + "\n".join([*rows, ""]))
+    draft = draft_files(tmp_path).draft
+    assert [c.signal for c in draft.channels] == ["host", "dz_um", "t_bed"]
+    assert any("left out, for they say what was asked of InfluxDB" in note for note in draft.notes)

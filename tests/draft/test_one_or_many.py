@@ -128,3 +128,13 @@ def test_parts_that_another_source_joins_are_asked_for_their_pause(tmp_path: Pat
     draft = draft_files(tmp_path).draft
     assert [t.id for t in draft.tests] == ["cool", "heat"]
     assert len([q for s in draft.sources for q in s.questions if JOINED in q]) == 1
+
+
+@pytest.mark.parametrize("headed", [True, False])
+def test_files_whose_heads_may_date_them_are_no_parts(tmp_path: Path, headed: bool) -> None:
+    for day, name in ((16, "ETVE_4000"), (17, "ETVE_8000")):
+        head = f"Machine: VMC\nTest Date:\t06/{day}/2026\nTest Time:\t09:00:00 AM\n\n" if headed else ""
+        rows = "".join(f"{k / 5:.2f}\t{0.1 * k:.1f}\t{20 + k / 90:.2f}\n" for k in range(120))
+        (tmp_path / f"{name}.txt").write_text(f"{head}Elapsed (min)\tZ (um)\tT Bed (degC)\n{rows}", "utf-8")
+    questions = "; ".join(asked(tmp_path, ""))
+    assert ("did its rows begin then?" in questions, FILES in questions) == (headed, not headed)

@@ -88,3 +88,32 @@ def test_heads_that_differ_make_two_channels(tmp_path: Path) -> None:
     logs(tmp_path, ["spindle/T (C)", "column/T (C)"], [(1, 0)] * 2)
     made = [c for c in draft_files(tmp_path).draft.channels if "Hall" not in c.signal]
     assert [(c.signal, list(c.only_in)) for c in made] == [("spindle/T (C)", ["run_1"]), ("column/T (C)", ["run_2"])]
+
+
+@pytest.mark.parametrize(
+    ("headers", "kind"),
+    [(["Ambient (°C)", "Ambient"], "temperature"), (["Ambient", "Ambient (°C)", "Ambient"], "temperature")],
+)
+def test_a_name_with_and_without_its_unit_is_one_channel(
+    tmp_path: Path, say: Say, headers: list[str], kind: str
+) -> None:
+    t = np.arange(300) * 10.0
+    for k, header in enumerate(headers, 1):
+        columns = [numbers(t, 0), numbers(20 + t / 9000, 2), numbers(t / 3000, 4)]
+        text(tmp_path / f"run_{k}.csv", ["t [s]", header, "dZ [um]"], columns, mark=",")
+    (hall, _) = sorted(draft_files(tmp_path).draft.channels, key=lambda c: c.said.quantity != kind)
+    assert (hall.name, hall.signal, hall.said.unit, hall.only_in) == ("Ambient", "Ambient", "°C", ())
+    said = "°C (1), none (1)" if len(headers) == 2 else "none (2), °C (1)"
+    assert hall.said.questions == (f"unit: °C in all files? they say {said}",)
+    assert say("--store", tmp_path / "s", "ingest", tmp_path / "campaign.yaml").code == 0
+    asked = f"select test, count(*), max(value) from sample where channel = '{hall.name}' group by test order by test"
+    rows = say("--store", tmp_path / "s", "sql", asked, "--csv").out.split()[1:]
+    assert [r.split(",")[1:] for r in rows] == [["300", "20.33"]] * len(headers)
+
+
+def test_a_name_without_a_unit_that_is_another_quantity_is_another_channel(tmp_path: Path) -> None:
+    t = np.arange(300) * 10.0
+    for k, (header, values) in enumerate((("Spindle (A)", 5 + t / 3000), ("Spindle", 20 + t / 900)), 1):
+        text(tmp_path / f"run_{k}.csv", ["t [s]", header], [numbers(t, 0), numbers(values, 2)], mark=",")
+    found = [(c.signal, c.only_in) for c in draft_files(tmp_path).draft.channels]
+    assert found == [("Spindle (A)", ("run_1",)), ("Spindle", ("run_2",))]

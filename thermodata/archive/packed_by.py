@@ -7,7 +7,8 @@ import struct
 from pathlib import PurePosixPath
 
 _ZIP = b"PK\x03\x04"
-_PARTS = ("", ".xml", ".rels", ".vml", ".bin", ".png", ".jpg", ".jpeg", ".emf", ".wmf", ".gif")  # of Office files
+# of Office files, and of arrays of NumPy
+_PARTS = ("", ".xml", ".rels", ".vml", ".bin", ".png", ".jpg", ".jpeg", ".emf", ".wmf", ".gif", ".npy")
 
 # first bytes and name
 _PACKERS = (

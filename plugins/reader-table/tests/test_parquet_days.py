@@ -64,6 +64,21 @@ def test_days_beside_what_is_not_read_are_asked(tmp_path: Path) -> None:
     assert load(Reader(), path, Source(table=table)).t_ns["table"].tolist() == _NS
 
 
+@pytest.mark.parametrize("at", [20, 200])
+@pytest.mark.parametrize("words", [True, False])
+def test_a_header_among_the_rows_is_no_date_of_them(tmp_path: Path, at: int, words: bool) -> None:
+    """A text that goes on under its header, written as Parquet; words: whether its numbers stayed texts, too."""
+    moments = [dt.datetime(2026, 3, 2, 8) + dt.timedelta(days=k >= at, seconds=10 * k) for k in range(400)]
+    dated = [f"{m:%d.%m.%Y}" if k in (0, at) else "" for k, m in enumerate(moments)]
+    clocks, values = [f"{m:%H:%M:%S}" for m in moments], [f"{k}.5" for k in range(400)]
+    dated[at:at], clocks[at:at], values[at:at] = ["Datum"], ["Uhrzeit"], ["T"]
+    column = values if words else [None if v == "T" else float(v) for v in values]
+    pq.write_table(pa.table({"Datum": dated, "Uhrzeit": clocks, "T": column}), tmp_path / "x.parquet")
+    found = load(Reader(), tmp_path / "x.parquet", Source(timezone="UTC"))
+    assert found.t_ns["table"].tolist() == [int(np.datetime64(m, "ns").astype(np.int64)) for m in moments]
+    assert [loss.reason for loss in found.losses] == ["1 row without a time"]
+
+
 def test_times_of_day_alone_count_over_midnight(tmp_path: Path) -> None:
     found = load(Reader(), _written(tmp_path, Time=pa.array(_CLOCKS, pa.time64("us"))), Source())
     assert found.recording.clock == "relative"

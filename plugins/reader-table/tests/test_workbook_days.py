@@ -38,6 +38,16 @@ def test_a_date_in_the_first_row_is_that_of_the_rows_behind_it(tmp_path: Path, a
     assert not data.losses
 
 
+@pytest.mark.parametrize("again", [20, 250])
+def test_a_header_that_stands_again_is_no_date_of_its_rows(tmp_path: Path, again: int) -> None:
+    head = ["Datum", "Zeit", "T1 [degC]"]
+    rows: list[list[Any]] = [[None, (21 * 3600 + 20 * i) / 86400, 20.5 + i % 7] for i in range(2 * again)]
+    rows[0][0], rows[again][0] = DAY, DAY + 1
+    data = read(tmp_path, [head, *rows[:again], head, *rows[again:]], (DATE, CLOCK, PLAIN))
+    assert data.t_ns["table"].tolist() == [T0 + (i // again * 1440 * 3 + i) * MINUTE // 3 for i in range(2 * again)]
+    assert not data.losses
+
+
 @pytest.mark.parametrize("start", ["2026-03-02 21:00:00", "02.03.2026 21:00"])
 def test_rows_count_from_the_start_above_them(tmp_path: Path, start: str) -> None:
     numbers = [[60.0 * i, 20.5 + i % 7, 1.0 * i] for i in range(40)]

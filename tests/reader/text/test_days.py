@@ -106,6 +106,31 @@ def test_a_row_whose_date_is_torn_is_lost_alone(tmp_path: Path) -> None:
     assert len(losses) == 2
 
 
+HEAD = '"DATUM:";"UHRZEIT:";"M00: °C"'
+
+
+@pytest.mark.parametrize("first", [30, 450, 2300], ids=["among the first rows", "behind them", "behind the sample"])
+@pytest.mark.parametrize("again", [HEAD, HEAD.replace("°C", "degC")])
+def test_a_header_that_stands_again_is_no_date_of_its_rows(tmp_path: Path, first: int, again: str) -> None:
+    """first: rows from 08:00 of one day, before the logger is started anew at 09:00 of the next; a date in the first
+    row of each"""
+
+    def rows(day: str, hour: int, count: int) -> list[str]:
+        clock = [f"{hour + k // 360:02d}:{k // 6 % 60:02d}:{k % 6 * 10:02d}" for k in range(count)]
+        return [f'"{"" if k else day}";"{c}";{20 + k % 300 / 100:.2f}' for k, c in enumerate(clock)]
+
+    path = tmp_path / "almemo.txt"
+    path.write_text("\n".join([HEAD, *rows("21.04.26", 8, first), again, *rows("22.04.26", 9, 60), ""]), "utf-8")
+    source = Source(timezone="UTC")
+    table = delimited.open_table(path, source)
+    parts = list(delimited.blocks(path, table, source))
+    found = np.concatenate([b.t_ns for b in parts if isinstance(b, Block)])
+    starts = np.array(["2026-04-21T08:00", "2026-04-22T09:00"], "datetime64[ns]").astype(np.int64)
+    wanted = [start + 10 * 10**9 * np.arange(n) for start, n in zip(starts, (first, 60), strict=True)]
+    assert not [p for p in parts if isinstance(p, Loss)]
+    np.testing.assert_array_equal(found, np.concatenate(wanted))
+
+
 @pytest.mark.parametrize(("name", "year"), [("log_2026-03-12.csv", "2026"), ("log.csv", "YYYY")])
 @pytest.mark.parametrize("day", ["12.03.", "12/03", "12.3."])
 def test_days_without_a_year_are_told_and_the_year_is_asked(tmp_path: Path, name: str, year: str, day: str) -> None:

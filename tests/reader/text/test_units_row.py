@@ -41,6 +41,24 @@ def test_what_a_logger_writes_for_stamps_and_records_is_no_unit() -> None:
     assert read == {"TIMESTAMP": None, "RECORD": None, "T_bed": "Deg C", "T_hall": "Deg C", "U": "Volts"}
 
 
+@pytest.mark.parametrize(
+    ("names", "units", "found"),
+    [
+        ("Number;Date&Time;ms;CH5;Alarm1-10;AlarmOut", "NO.;Time;ms;V;A1234567890;A1234", "V"),
+        ("Number;Date&Time;ms;CH5;Alarm1-10;Alarm11-20;AlarmOut", "NO.;Time;ms;mm;A1234567890;A1234567890;A1234", "mm"),
+        ("TIMESTAMP;RECORD;CH5", "TS;RN;Deg C", "Deg C"),
+    ],
+)
+def test_one_channel_beside_stamps_and_alarms_has_its_unit(names: str, units: str, found: str) -> None:
+    read = _layout(names, units)
+    assert list(read) == names.split(";")
+    assert {name: unit for name, unit in read.items() if unit not in (None, "ms")} == {"CH5": found}
+
+
+def test_names_of_one_letter_beside_a_time_are_no_units() -> None:
+    assert list(_layout("Pos;;", "No.;Time;T")) == ["No.", "Time", "T"]
+
+
 def test_a_channel_in_a_unit_that_is_not_known_is_no_temperature_by_its_values(creeping: Array) -> None:
     said = guess("d4Z", "tenths", "float64", values_of(creeping))
     assert said.quantity is None

@@ -14,7 +14,7 @@ from thermodata.draft.campaign.said_of import said_of
 from thermodata.draft.campaign.wished_names import wished_name, with_series
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.probes.jumps import JumpTest
+from thermodata.draft.probes.jumps import JumpTest, is_length
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called
 from thermodata.draft.signals.own_scale import scale_note
@@ -159,7 +159,7 @@ def _with_jump(one: OneSignal, said: Guess, jumps: Sequence[JumpTest], twin: boo
     jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
     if jump is None and said.quantity == "displacement" and not twin:
         jump, said = moved_too(signal, said, jumps)
-    if jump is not None and said.quantity == "voltage":
+    if jump is not None and (said.quantity == "voltage" or is_length(said)):
         said = _moved_probe(said, called(signal))
     return jump, said
 
@@ -181,7 +181,7 @@ def _way(one: OneSignal) -> str | None:
 
 
 def _moved_probe(said: Guess, name: str) -> Guess:
-    """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
+    """What is in volts or a length and moved in a jump test: a displacement, along the axis that its name says."""
     letter = (axis_of(words(parts_of(name)[-1])) or "").upper()
     axis = letter if letter in ("X", "Y", "Z") else None
     return Guess("displacement", said.unit, "tcp", axis, False, ("data",), () if axis else ("axis?",))

@@ -16,6 +16,8 @@ from thermodata.schema.agreed.exported import OF_TEST, flags_of
 from thermodata.schema.words.sentences import listed, with_count
 
 _TAG_NUMBER = re.compile(r"(?i)(?:numeric|tag|item|point|node)[ _]?id$")
+_QUERY = {"_start", "_stop"}  # the range of a query of InfluxDB, which it writes into each row
+_OF_QUERY = {*_QUERY, "#group", "#datatype", "#default", "result", "table"}
 
 
 class LeftOut:
@@ -29,6 +31,7 @@ class LeftOut:
         self._of_test: set[str] = set()  # columns of an export that say which test it is of
         self._flags: list[str] = []  # the store's, in an export
         self._beside: list[str] = []  # what tells the quality or the number of another signal
+        self._query: list[str] = []  # what a query of InfluxDB says of itself
         self._mean_of = {} if exported else extremes_among(found)
         self._extremes: dict[str, str] = {}  # what a logger wrote of one that it averaged, and that one
 
@@ -41,6 +44,8 @@ class LeftOut:
             self._flags.append(one.written)
         elif (why := _why_left_out(one, said, self._found)) is not None:
             self._notes.append(f"{self._source}: '{one.written}' {why}: left out")
+        elif self._names >= _QUERY and one.signal.name in _OF_QUERY:
+            self._query.append(one.written)
         elif _is_of_others(one):
             self._beside.append(one.written)
         elif (mean := self._mean_of.get(one.signal.name)) is not None:
@@ -66,6 +71,9 @@ class LeftOut:
             notes.append(
                 f"{self._source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
             )
+        if self._query:
+            shown = with_count(self._query, 4)
+            notes.append(f"{self._source}: {shown}: left out, for they say what was asked of InfluxDB")
         if self._extremes:
             notes.append(extremes_note(self._source, self._extremes))
         return tuple(notes)

@@ -23,9 +23,9 @@ from thermodata.reader.text.rows.quality_columns import STATE_OF
 
 @dataclass(frozen=True, slots=True)
 class _InFiles:
-    """A signal as each of its files has it. usual: the unit that most of them say; units, names: how often each is
-    said; by_path: its values in each, in the file's own unit; heads: what stands over it -> the files; own: file name
-    -> the signal there; values: of all files, in the usual unit, None where one lacks them."""
+    """A signal as each of its files has it. usual: the unit that most of them say, of those that say one; units, names:
+    how often each is said; by_path: its values in each, in the file's own unit; heads: what stands over it -> the
+    files; own: file name -> the signal there; values: of all files, in the usual unit, None where one lacks them."""
 
     usual: str | None
     units: Counter[str | None]
@@ -39,7 +39,7 @@ class _InFiles:
 def _in_files(one: OneSignal) -> _InFiles:
     signals = [(f, one.of(f) or one.signal) for f in one.files]
     units = Counter(own.unit for _, own in signals)
-    usual = units.most_common(1)[0][0]
+    usual = next((unit for unit, _ in units.most_common() if unit), None)
     by_path = {str(f.path): f.sample.values.get((own.stream, own.name)) for f, own in signals}
     values = None
     heads: dict[str, list[str]] = {}
@@ -72,9 +72,7 @@ def said_of(one: OneSignal) -> tuple[Guess, str | None]:
     if STATE_OF in signal.properties and said.quantity != "state":
         return _as_state(said, signal.properties[STATE_OF], files.values), note
     if len(files.units) > 1 and said.quantity:
-        names = ", ".join(f"{u or 'none'} ({n})" for u, n in files.units.most_common())
-        asked = f"unit: the files disagree: {names}; each file's own is taken"
-        return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
+        return _with_units_asked(said, files.units), note
     return _with_questions(one, said, files), note
 
 
@@ -102,6 +100,17 @@ def _as_state(said: Guess, of: str, values: Values | None) -> Guess:
     known = values is not None and values.low >= 0 and values.high <= 1  # on and off
     as_state = replace(said, quantity="state", unit=None, instead_of=None, why_not=None, sure=False, basis=("name",))
     return replace(as_state, questions=() if known else (asked,))
+
+
+def _with_units_asked(said: Guess, units: Counter[str | None]) -> Guess:
+    """With the question for the unit where files say several, or some none. units: how often each is said."""
+    names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
+    known = [u for u in units if u]
+    if len(known) == 1:
+        asked = f"unit: {known[0]} in all files? they say {names}"
+        return replace(said, sure=False, questions=(*said.questions, asked))
+    asked = f"unit: the files disagree: {names}; each file's own is taken"
+    return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked))
 
 
 def _with_questions(one: OneSignal, said: Guess, files: _InFiles) -> Guess:

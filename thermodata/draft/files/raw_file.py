@@ -106,6 +106,11 @@ class RawFile:
         return self.sample.first_ns if self.sample.first_ns is not None else self.recording.start_ns
 
     @property
+    def may_be_dated(self) -> bool:
+        """Whether it has dates, or will have when it is answered which start its head says."""
+        return not self.recording.is_undated or any(a.declare == _START for a in self.asked)
+
+    @property
     def counts_from_ns(self) -> int | None:
         """The first time of a file without dates, by the column that a question proposes where one does."""
         if not self.recording.is_undated or self.block is not None:

@@ -113,8 +113,8 @@ def _said_apart(names: Sequence[str], is_number: Callable[[str], bool]) -> bool:
 
 
 def _dated(test: str, groups: Sequence[Group]) -> bool:
-    """Whether any log of a test says when it began."""
-    return any(not f.recording.is_undated for g in groups for f in g.tests.get(test, ()))
+    """Whether any log of a test says when it began, or its head may."""
+    return any(f.may_be_dated for g in groups for f in g.tests.get(test, ()))
 
 
 def _begins_at_0(file: RawFile) -> bool:

@@ -1,5 +1,6 @@
 """One signal that the files of a source call by its name in two units: '101 <Front bearing> (C)' and, in a test of
-another setting, '101 <Front bearing> (F)'. It is one channel, whose signal is written without the unit."""
+another setting, '101 <Front bearing> (F)', or without one. It is one channel, whose signal is written without the
+unit."""
 
 from __future__ import annotations
 
@@ -48,19 +49,19 @@ class OneSignal:
 
 
 def joined_over_units(found: Sequence[tuple[Signal, Sequence[RawFile]]]) -> list[OneSignal]:
-    """The signals of a source, those in one that differ in their unit only: the name says the same quantity with both,
-    and no file has both. In the order of their first appearance."""
+    """The signals of a source, those in one that differ in their unit only, or whether the name has one: it says the
+    same quantity with both, and no file has both. In the order of their first appearance."""
     made: list[OneSignal] = []
     by_name: dict[tuple[str, str], list[int]] = {}
     for signal, files in found:
-        name, unit = split_unit(signal.name)
+        name = split_unit(signal.name)[0]
         own = OneSignal((signal,), tuple(files))
-        homes = by_name.setdefault((signal.stream, name), []) if unit and name else []
+        homes = by_name.setdefault((signal.stream, name), []) if name else []
         home = next((i for i in homes if _are_one(made[i], own)), None)
         if home is not None:
             spellings = (*made[home].spellings, signal)
             # what it is, that one tells whose name or unit leaves no doubt
-            surest = sorted(spellings, key=_on_its_unit)
+            surest = sorted(spellings, key=lambda s: (s.unit is None, _on_its_unit(s)))
             made[home] = OneSignal(tuple(surest), (*made[home].files, *files))
             continue
         homes.append(len(made))
@@ -120,11 +121,18 @@ def _one_length(one: Signal, other: Signal) -> bool:
     return all(lengths) and (_on_its_unit(one) or _on_its_unit(other))
 
 
+def _without_unit(one: OneSignal, other: OneSignal, said: str | None, other_said: str | None) -> bool:
+    """Whether one of two has no unit, and its name and values say what the other's unit does, or nothing."""
+    bare, with_unit = (one, other_said) if one.signal.unit is None else (other, said)
+    if with_unit is None or (one.signal.unit is None) is (other.signal.unit is None):
+        return False
+    return {guess_of(*seen).quantity for seen in bare.seen()} <= {None, with_unit}
+
+
 def _are_one(one: OneSignal, other: OneSignal) -> bool:
     said, other_said = guess_of(one.signal).quantity, guess_of(other.signal).quantity
     paths = {(f.path, f.part) for f in one.files}
-    return (
-        said is not None
-        and (said == other_said or _one_length(one.signal, other.signal))
-        and not any((f.path, f.part) in paths for f in other.files)
-    )
+    if any((f.path, f.part) in paths for f in other.files):
+        return False
+    alike = said is not None and (said == other_said or _one_length(one.signal, other.signal))
+    return alike or _without_unit(one, other, said, other_said)

@@ -5,6 +5,7 @@ Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,6 +15,8 @@ from thermodata.calibration.jump.plateaus import Step, find_steps
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
 from thermodata.plugin import Float1D
@@ -23,6 +26,7 @@ NAMED = (
 )
 _LONGEST_S = 3600.0
 _MOST_STEPS, _LEAST_STEPS = 40, 2
+_TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
 _ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
 
 
@@ -68,9 +72,9 @@ def jump_of(file: RawFile) -> JumpTest | None:
     signal None: a person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
     moved: list[Moved] = []
-    probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
-    stirred = _others_move(file, set(probes))
-    for key, _ in probes.items():
+    probes = _probes(file, named)
+    stirred = _others_move(file, probes)
+    for key in probes:
         course = file.sample.courses.get(key)
         found = staircase(course) if course is not None else None
         if found is None or (stirred and not named):
@@ -85,13 +89,31 @@ def jump_of(file: RawFile) -> JumpTest | None:
     return None
 
 
+def is_length(said: Guess) -> bool:
+    """Whether only its unit says that a signal is a position: a probe that logs in mm may be called 'Channel 1'."""
+    return said.quantity == "position" and said.basis == ("unit",)
+
+
+def _probes(file: RawFile, named: bool) -> list[tuple[str, str]]:
+    """(stream, name) of what may be moved in a jump test: displacements and voltages; where there are none, and the
+    file is called a jump test, lengths that no axis of the machine travels. What is called as an axis is its position
+    where more than lengths is logged."""
+    said = {(s.stream, s.name): guess_of(s) for s in file.signals}
+    found = [key for key, g in said.items() if g.quantity in ("displacement", "voltage")]
+    if found or not named:
+        return found
+    alone = all(map(is_length, said.values()))
+    lengths = [key for key, g in said.items() if is_length(g) and (alone or axis_of(words(key[1])) is None)]
+    return [key for key in lengths if (v := file.sample.values.get(key)) and v.high - v.low < _TRAVEL_MM]
+
+
 def _is_short(file: RawFile) -> bool:
     """Whether it lasts no longer than a jump test: a 'step' of the spindle's speed takes a day."""
     courses = [c for c in file.sample.courses.values() if c.t_ns.size]
     return not courses or max(int(c.t_ns[-1]) - int(c.t_ns[0]) for c in courses) / 1e9 <= _LONGEST_S
 
 
-def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
+def _others_move(file: RawFile, probes: Collection[tuple[str, str]]) -> bool:
     """Whether a spindle turned or an axis travelled, which a jump test does not do."""
     for signal in file.signals:
         key = (signal.stream, signal.name)
@@ -103,7 +125,7 @@ def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
             return True
         if quantity == "temperature" and seen.high - seen.low > 5:
             return True
-        if quantity == "position" and seen.high - seen.low > 5:
+        if quantity == "position" and seen.high - seen.low > _TRAVEL_MM:
             return True
     return False
 

@@ -37,11 +37,12 @@ _AT = re.compile(rf"(?<![a-z])(air|amb\w*|hall\w*|luft|raum\w*|umgebung|room|oko
 _SOME_DEGREES = re.compile(rf"(?<![\d.,]){_DEGREES}(?![a-z])")
 _CONDITIONED = re.compile(r"(?<![a-z])(wo|without|no|ohne|bez|w|with|mit|s)[ -]?ac(?![a-z])")
 _WITHOUT = ("wo", "without", "no", "ohne", "bez")
-_DATE = re.compile(
-    r"(?<!\d)(20\d\d)([-. ]?)(0[1-9]|1[0-2])\2(0[1-9]|[12]\d|3[01])(?!\d)"
-    r"(?:[ t-]+([01]\d|2[0-3])[-:h. ]?([0-5]\d)(?:[-:m. ]?([0-5]\d))?(?!\d))?"
+_TIME = r"(?:[ t-]+([01]\d|2[0-3])[-:h. ]?([0-5]\d)(?:[-:m. ]?([0-5]\d))?(?!\d))?"
+_DAY_AND_MONTH = "".join(rf"(?<!\b{day}[-. ]{month}[-. ])" for day in (r"\d", r"\d\d") for month in (r"\d", r"\d\d"))
+_DATE = re.compile(  # '31.03.2026 08_10_00' is no 2026-08-10
+    rf"(?<!\d){_DAY_AND_MONTH}(20\d\d)([-. ]?)(0[1-9]|1[0-2])\2(0[1-9]|[12]\d|3[01])(?!\d){_TIME}"
 )
-_DATE_DMY = re.compile(r"(?<!\d)(0?[1-9]|[12]\d|3[01])\.(0?[1-9]|1[0-2])\.(20\d\d)(?!\d)")
+_DATE_DMY = re.compile(rf"(?<!\d)(0?[1-9]|[12]\d|3[01])\.(0?[1-9]|1[0-2])\.(20\d\d)(?!\d){_TIME}")
 _DATE_SHORT = re.compile(r"(?<![\d.-])(\d\d)([-. ])(\d\d)\2(\d\d)(?![\d-])")
 _FIRST_YEAR = 2015  # that two digits of a date are of, up to now
 
@@ -150,12 +151,17 @@ def _date(texts: Sequence[str]) -> Said:
     """The date, and with a time of day the moment; the days that a date with a year of two digits may be."""
     match = next((m for t in texts if (m := _DATE.search(t)) and m[5]), None) or _first(_DATE, texts)
     if match is not None:
-        date = f"{match[1]}-{match[3]}-{match[4]}"
-        start = None if match[5] is None else f"{date} {match[5]}:{match[6]}:{match[7] or '00'}"
-        return Said({"date": date}, start=start)
+        return _at(f"{match[1]}-{match[3]}-{match[4]}", match.groups()[4:])
     if match := _first(_DATE_DMY, texts):
-        return Said({"date": f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}"})
+        return _at(f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}", match.groups()[3:])
     return Said(days=_short_dates(texts))
+
+
+def _at(date: str, clock: Sequence[str | None]) -> Said:
+    """A date, and the moment where a name has a time of day too. clock: hour, minute, second, None where there is
+    none."""
+    hour, minute, second = clock
+    return Said({"date": date}, start=None if hour is None else f"{date} {hour}:{minute}:{second or '00'}")
 
 
 def _short_dates(texts: Sequence[str]) -> tuple[str, ...]:

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from pathlib import PurePath
 
 from thermodata.plugin import Head
+from thermodata.reader.finding.array_files import BY_HDF5, BY_NPZ, BY_XARRAY
 from thermodata.reader.text import decode_head
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
+_HDF5 = b"\x89HDF\r\n"
 _MOST_NULS = 0.2  # of the bytes of a text that was damaged
 
 
@@ -41,16 +43,13 @@ _KINDS = (
         'export its table as CSV: sqlite3 -header -csv {name} "select * from TABLE" > {stem}.csv, where sqlite3 {name} '
         ".tables names the tables",
     ),
-    _Kind(
-        b"\x89HDF\r\n",
-        "HDF5, and no MAT file",
-        'make a Parquet file of its data sets: python -c "import h5py, pyarrow, pyarrow.parquet as p; '
-        "f = h5py.File('{name}'); p.write_table(pyarrow.table({{k + f'_{{i}}' * (f[k].ndim > 1): c "
-        "for k in ['TIME', 'SIGNAL'] for i, c in enumerate(f[k][:].reshape(len(f[k]), -1).T)}}), "
-        "'{stem}.parquet')\", where python -c \"import h5py; h5py.File('{name}').visititems(print)\" names the data "
-        "sets, whose attributes with units do not come with it: declare these; of one that pandas wrote: "
-        "pandas.read_hdf('{name}').to_parquet('{stem}.parquet')",
+    *(
+        _Kind(magic, "netCDF-4 (HDF5)", BY_XARRAY.replace("{with}", "h5netcdf"), ends)
+        for magic, ends in ((_HDF5 + rb"[\s\S]*_NCProperties", ("",)), (_HDF5, (".nc", ".nc4", ".cdf")))
     ),
+    _Kind(_HDF5, "HDF5, and no MAT file", BY_HDF5),
+    _Kind(b"CDF[\x01\x02\x05]", "netCDF (classic)", BY_XARRAY.replace("{with}", "scipy")),
+    _Kind(rb"PK\x03\x04[\s\S]{26}[^/\\\0]{1,200}\.npy", "arrays of NumPy by their names (NPZ)", BY_NPZ),
     *(_Kind(magic, "Feather (Arrow)", _BY_ARROW.format(of="feather")) for magic in (b"ARROW1", b"FEA1")),
     _Kind(b"ORC", "ORC", _BY_ARROW.format(of="orc")),
     _Kind(
@@ -94,7 +93,8 @@ def foreign_kind(start: Head) -> str | None:
     found = next((k for k in _KINDS if k.is_of(start)), None)
     if found is None:
         return None
-    return f"{found.what}: " + found.do.format(name=start.name, stem=PurePath(start.name).stem)
+    do = found.do.replace("{name}", start.name).replace("{stem}", PurePath(start.name).stem)
+    return f"{found.what}: {do}"
 
 
 def foreign_file(start: Head) -> str | None:

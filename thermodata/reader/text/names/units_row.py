@@ -17,6 +17,8 @@ _TYPE = re.compile(
 _OF_TIME = re.compile(r"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|hh?:mm(?::ss)?)[\])]?")
 # what loggers write in the row of units for stamps, numbers of records and alarms
 _NO_UNIT = re.compile(r"(?i)ts|rn|no\.?|time|zeit|date|datum|-+|alarm.*|[a-z]\d{3,}")
+_ALARMS = re.compile(r"(?i)a1234(567890)?")  # the alarms of a logger by their numbers
+_STAMPS = {"TS", "RN"}
 _SIGN_FIRST = re.compile(r"[°º˚%‰]\S{0,4}")  # '°X': a unit, known or not
 _LONGEST = 12  # letters of a unit
 
@@ -36,8 +38,12 @@ def known_units(row: Sequence[str]) -> list[str | None]:
 
 
 def are_units(cells: Sequence[Cell]) -> bool:
-    """Whether most filled cells of a row are units."""
-    return sum(_is_one(str(c)) for c in cells) * 2 > len(cells)
+    """Whether most filled cells of a row are units; of a row that holds what a logger writes among units only, most of
+    the others: one or two channels stand beside as many stamps and alarms."""
+    texts = [str(c) for c in cells]
+    if any(map(_ALARMS.fullmatch, texts)) or _STAMPS.issubset(texts):
+        texts = [c for c in texts if not _NO_UNIT.fullmatch(c)]
+    return sum(map(_is_one, texts)) * 2 > len(texts)
 
 
 def mostly_units(row: Sequence[str]) -> bool:

@@ -22,6 +22,7 @@ from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated
 from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.head import Head
+from thermodata.reader.text.page.header_again import repeats_of
 from thermodata.reader.text.page.labelled_head import labelled_head
 from thermodata.reader.text.page.line_up import Fit, line_up, units_by_keyword
 from thermodata.reader.text.page.lines_between import lines_between
@@ -115,7 +116,8 @@ def find_layout(
     if between is not None and "names" not in said:
         refuse_units_misfit(head)
     header = _header(head, said)
-    data = _whole_rows(below, width)
+    repeats = repeats_of(rows[skip:first])
+    data = _whole_rows([r for r in below if not repeats(r)], width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = list[str]()

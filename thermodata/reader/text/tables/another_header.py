@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from thermodata.reader.text.cells.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.names.header import told_alike
 from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
+from thermodata.reader.text.page.header_again import repeats_of
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.units.spelling import spelled
@@ -52,9 +52,8 @@ def another_in_sheet(
 
 def repeated_in_sheet(head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]) -> frozenset[int]:
     """The rows of a sheet that repeat one above the data, counted from 0."""
-    above = {told_alike(cells) for row in head if sum(map(bool, cells := texts_of(row))) > 1}
-    texts = ((n, row) for n, row in enumerate(rows) if all(isinstance(c, str) or c is None for c in row))
-    return frozenset(n for n, row in texts if above and told_alike(texts_of(row)) in above)
+    repeats = repeats_of(head)
+    return frozenset(n for n, row in enumerate(rows) if repeats(row))
 
 
 def begins_another(layout: Layout, cells: Sequence[str], shown: str, below: bool) -> str:

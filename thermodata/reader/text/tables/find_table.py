@@ -18,6 +18,7 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.header_again import repeats_of
 from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
@@ -157,12 +158,14 @@ def find_table(
 
 
 def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[list[str]]:
-    """The sampled rows of the table, those with a cell for each column. rows: of the top."""
+    """The sampled rows of the table, those with a cell for each column, but for headers that stand again. rows: of the
+    top."""
     first, top = layout.first, len(lines.top)
     # lines of a header were joined, rows are not
     top_rows = map(lines.cells, lines.top[first:]) if lines.quoted else rows[first:]
     later = map(lines.cells, (*lines.head[max(top, first) : first + _TYPED_ROWS], *lines.sample.rest))
-    return [r for r in (*top_rows, *later) if len(r) == len(layout.names)]
+    repeats = repeats_of(rows[:first])
+    return [r for r in (*top_rows, *later) if len(r) == len(layout.names) and not repeats(r)]
 
 
 def _timed(
@@ -173,8 +176,9 @@ def _timed(
         return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
     def more(k: int) -> list[str]:
+        repeats = repeats_of(map(lines.cells, lines.head[: layout.first]))
         rows = still_going(lines.below(layout.first), group, layout)
-        return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
+        return [r[group.time[k]] for r in rows if len(r) > group.time[k] and not repeats(r)]
 
     columns = [[r[i] for r in still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]

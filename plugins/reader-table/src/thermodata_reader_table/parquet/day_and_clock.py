@@ -45,6 +45,13 @@ def texts(column: Any) -> list[str]:
     return ["" if v is None else str(v) for v in column.to_pylist()]
 
 
+def is_header(row: Sequence[Cell], names: Sequence[str]) -> bool:
+    """Whether the filled cells of a row are the names of their columns, as where a text that goes on under a second
+    header was written as Parquet."""
+    filled = [(c, name) for c, name in zip(row, names, strict=True) if not is_empty(c)]
+    return len(filled) > 1 and all(cell == name for cell, name in filled)
+
+
 def clock_beside(day: int, seen: FirstRows) -> int | None:
     """The column of times of day beside a column of days; None where there is none. seen: of cells of `as_cells`.
 
@@ -70,6 +77,9 @@ def joined(names: Sequence[str], columns: Sequence[Any], zone: str | None, form:
     FormatError, QuestionError: as `find_formats`, for texts.
     """
     cells = [texts(c) for c in columns]
+    for again in [n for n, row in enumerate(zip(*cells, strict=True)) if row == tuple(names)]:
+        for column in cells:
+            column[again] = ""
     once = is_once(cells[0])
     known = [[c for c in cells[0] if c], *cells[1:]] if once else cells
     forms = find_formats(list(names), known, form, where)

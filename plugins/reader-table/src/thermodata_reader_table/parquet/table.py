@@ -22,7 +22,7 @@ from thermodata.reader.times.time_units import SECONDS, to_ns
 from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.damage import damage_as_format_error
-from thermodata_reader_table.parquet.day_and_clock import as_cells, joined, texts
+from thermodata_reader_table.parquet.day_and_clock import as_cells, is_header, joined, texts
 from thermodata_reader_table.parquet.field_metadata import said_of_fields, units_of
 from thermodata_reader_table.parquet.footer_check import check_footer
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out
@@ -96,7 +96,8 @@ class Table:
         """Cells of the first rows."""
         with damage_as_format_error(self.path):
             head = self._head(100)
-            return [list(r) for r in zip(*map(as_cells, head.columns), strict=True)] if head else []
+            rows = zip(*map(as_cells, head.columns), strict=True) if head else ()
+            return [list(r) for r in rows if not is_header(r, self.names)]
 
     def batches(self, rows: int, columns: list[str] | None = None) -> Iterator[Any]:
         """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
