@@ -13,12 +13,15 @@ import json
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from statistics import median
 from typing import Any
 
-from diagnosis import keep, kept, report
-from measure import PROGRAM, machine, run
+from measure import PROGRAM, machine, run, table
+
+OUTCOMES = ("right", "equivalent", "told", "family", "wrong", "false claim", "abstained")
 
 
 def demo(hide: str, seed: int) -> dict[str, Any]:
@@ -41,16 +44,81 @@ def demo(hide: str, seed: int) -> dict[str, Any]:
 
 def outcome(hide: str, seed: int, result: dict[str, Any]) -> str:
     """Marked as the blind benchmark marks."""
-    from thermodata.effect import effects
     from thermodata.virtual import make_world
-    from thermodata.virtual.benchmark import mark, true_family
+    from thermodata.virtual.right_names import names_of
 
-    if result["found"] is None:
+    if not result["claims"]:
         return "right" if hide == "none" else "abstained"
     if hide == "none":
         return "false claim"
-    family = true_family(hide, make_world(hide, seed).axis, effects())
-    return mark(hide, family, result["found"], result["family"], result["equivalents"])
+    world = make_world(hide, seed)
+    right = names_of(world.axis, world.sensors)[hide]
+    effect, _, channels = result["claims"][0].partition(":")
+    mark = right.mark(effect, channels.split(","), result["family"])
+    if mark in ("family", "wrong") and right.among(result["equivalents"]):
+        return "told"
+    return "right" if mark == "exact" else mark
+
+
+def kept(path: Path | None) -> list[dict[str, Any]]:
+    """The trials of an earlier run; a line that was cut is left out."""
+    found = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path and path.exists() else []:
+        try:
+            found.append(json.loads(line))
+        except json.JSONDecodeError:
+            print(f"{path}: left out: {line[:40]}", file=sys.stderr)
+    return found
+
+
+def keep(path: Path | None, trial: dict[str, Any]) -> None:
+    if path:
+        with path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(trial) + "\n")
+
+
+def middle(trials: Sequence[dict[str, Any]], key: str) -> str:
+    """Median before -> after over the trials with a claim [um]."""
+    pairs = [(t[f"{key}_before"], t[f"{key}_after"]) for t in trials if t[f"{key}_after"] is not None]
+    if not pairs:
+        return "-"
+    return f"{median(a for a, _ in pairs):.2f} -> {median(b for _, b in pairs):.2f}"
+
+
+def report(trials: Sequence[dict[str, Any]]) -> str:
+    """A row for each hidden effect and one for all; errors are medians over the machines with a claim."""
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for trial in trials:
+        name = trial["hidden"] or "none"
+        groups.setdefault(name, []).append(trial)
+    named = [t for t in trials if t["outcome"] in OUTCOMES]
+    rows = []
+    for name, part in [*groups.items(), ("all", named)]:
+        ends = [sum(t["outcome"] == o for t in part) for o in OUTCOMES]
+        rows.append(
+            [
+                name,
+                len(part),
+                *(n or "" for n in ends),
+                middle(part, "rmse_um"),
+                middle(part, "locked_rmse_um"),
+                f"{median(t['seconds'] for t in part):.1f}" if part else "",
+            ]
+        )
+    claims = [t for t in named if t["found"]]
+    fell = sum(t["rmse_um_after"] < t["rmse_um_before"] for t in claims)
+    locked = [t for t in claims if t["locked_rmse_um_after"] is not None]
+    locked_fell = sum(t["locked_rmse_um_after"] < t["locked_rmse_um_before"] for t in locked)
+    # a machine that lacks nothing is right where nothing is claimed: that is no claim
+    good = sum(t["outcome"] in ("right", "equivalent", "told") for t in claims)
+    return "\n".join(
+        [
+            table(["hidden", "machines", *OUTCOMES, "error [um]", "locked [um]", "s"], rows),
+            "",
+            f"{len(claims)} claims of {len(named)} machines; right or told as equivalent {good} of {len(claims)}; "
+            f"error falls in {fell} of {len(claims)}, on locked tests in {locked_fell} of {len(locked)}",
+        ]
+    )
 
 
 def main() -> None:

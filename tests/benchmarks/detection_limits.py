@@ -23,7 +23,7 @@ from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.scored import ACTS
 from thermodata.virtual.blind.trial import Trial, judge
 from thermodata.virtual.lathe.data import contribution
-from thermodata.virtual.lathe.right_names import mark
+from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import make_world
 
@@ -60,7 +60,7 @@ def held(stratum: str, seed: int) -> Held | None:
         return None
 
     def marked(one: CandidateEffect) -> str:
-        return mark(trial.hidden[0], one.effect.name, one.channels, one.family)
+        return RIGHT[trial.hidden[0]].mark(one.effect.name, one.channels, one.family)
 
     others = [m.alone for m in first.selection.members if marked(m.alone.candidate) not in FOUND]
     base = known(beside(first.problem, others), first.selection.noise)

@@ -4,7 +4,7 @@
     uv run --no-sync python tests/benchmarks/hand_rules.py --read trials.jsonl
 
 Both are asked about the same machines, once each: the same tests with clocks put right and slips known, the same
-candidates, the same baseline and the same locked tests, and `thermodata/virtual/blind/marking.py` marks both. The rules
+candidates, the same baseline and the same locked tests, and `thermodata/virtual/truth/marking.py` marks both. The rules
 stand in `by_hand/rules.py`. Of the claims by evidence it is told besides what two of the rules would make of
 them: a promised fall beyond 2.8 times what a candidate does, and exchanged histories as a null. --minutes ends a run
 after the machine that it is at; --out keeps each machine as a line, and goes on where it was stopped. Development seeds
@@ -36,13 +36,13 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of
 from thermodata.virtual.blind.seeds import seeds_of
 from thermodata.virtual.blind.tally import NAMED, wilson
 from thermodata.virtual.blind.tally import asked as has_a_cause
-from thermodata.virtual.lathe.data import model_of, to_dataset
+from thermodata.virtual.lathe import case as lathe
 from thermodata.virtual.lathe.strata import STRATA
-from thermodata.virtual.lathe.world import World, make_world
+from thermodata.virtual.truth.case import Case as Machine
+from thermodata.virtual.truth.marking import claims_of, head_of, marks_of, outcome_of
 
 Trial = Mapping[str, Any]
 WHO = {
@@ -56,9 +56,9 @@ WHO = {
 
 def judge(stratum: str, seed: int) -> dict[str, Any]:
     """One machine, both answers."""
-    world = make_world(stratum, seed)
-    data = to_dataset(world)
-    case = case_of(fit_model(model_of(world), data, uncertainty=False), data, effects(), 0, UNKNOWN, None)
+    machine = lathe.case_of(stratum, seed)
+    data = machine.data
+    case = case_of(fit_model(machine.spec, data, uncertainty=False), data, effects(), 0, UNKNOWN, None)
     begin = process_time()
     found = concluded(case, None)
     answer = in_contract(case, found, "benchmark", None, by_choice=False)
@@ -67,11 +67,11 @@ def judge(stratum: str, seed: int) -> dict[str, Any]:
     asked = asked_of(case)
     by_hand = found_by_hand(asked)
     seconds_by_hand = process_time() - begin
-    marking = _Marking(world)
+    marking = _Marking(machine)
     return {
         "stratum": stratum,
         "seed": seed,
-        "hidden": world.hidden,
+        "hidden": machine.key.hidden,
         "evidence": marking.of(claims_of(answer), head_of(answer), answer.verdict),
         "claims": _of_evidence(case, found, marking),
         **_of_rules(asked, by_hand, marking),
@@ -83,14 +83,11 @@ def judge(stratum: str, seed: int) -> dict[str, Any]:
 class _Marking:
     """An answer against the truth of one machine."""
 
-    def __init__(self, world: World) -> None:
-        kind = STRATA[world.stratum]
-        self.hidden = world.hidden
-        self.nothing = not world.hidden or kind.blind or kind.outside
-        self.broken = next((f.channel for f in world.faults if f.kind in ("offset", "stuck", "wander")), None)
+    def __init__(self, machine: Machine) -> None:
+        self.key, self.nothing = machine.key, machine.nothing
 
     def of(self, claims: Sequence[Candidate], head: Candidate | None, verdict: str = "unknown") -> dict[str, Any]:
-        marks, missed = marks_of(self.hidden, claims, self.broken)
+        marks, missed = marks_of(self.key, claims)
         return {
             "claims": [c.id for c in claims],
             "marks": marks,
@@ -100,7 +97,7 @@ class _Marking:
         }
 
     def right(self, one: Candidate) -> bool:
-        return best(self.hidden, one, self.broken) in ("exact", "equivalent")
+        return self.key.is_hidden(one)
 
 
 def _of_evidence(case: Case, found: Concluded, marking: _Marking) -> list[dict[str, Any]]:

@@ -19,8 +19,7 @@ from typing import Any
 
 from thermodata.virtual.blind.rivals import RIVALS
 from thermodata.virtual.blind.run import read
-from thermodata.virtual.blind.tally import NAMED, asked, wilson
-from thermodata.virtual.lathe.strata import STRATA
+from thermodata.virtual.blind.tally import NAMED, asked, groups, wilson
 
 Trial = Mapping[str, Any]
 BANDS = ((-float("inf"), 0.0), (0.0, 0.1), (0.1, 0.3), (0.3, 0.5), (0.5, 0.7), (0.7, 1.0))
@@ -151,10 +150,10 @@ def _both(trials: Sequence[Trial], low: float, high: float) -> str:
 
 
 def by_stratum(trials: Sequence[Trial]) -> list[str]:
-    """A Markdown row a stratum in which there is something to name."""
+    """A Markdown row a stratum, or number of causes where it is drawn, in which there is something to name."""
     found = []
-    for name in STRATA:
-        own = [t for t in trials if t["stratum"] == name and asked(t)]
+    for name, of in groups(trials):
+        own = [t for t in of if asked(t)]
         if own:
             cells = [
                 f"`{name}`",

@@ -10,17 +10,20 @@ import pytest
 from scipy.signal import lfilter
 
 from thermodata.cli import main
+from thermodata.cli.start.simulating import MACHINES as OFFERED
 from thermodata.errors import UsageError
 from thermodata.virtual.blind import run as running
 from thermodata.virtual.blind.asked import Asked
 from thermodata.virtual.blind.goals import overall
+from thermodata.virtual.blind.machines import MACHINES
 from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, _lasso, stepwise_bic
 from thermodata.virtual.blind.rules import fingerprint
 from thermodata.virtual.blind.seeds import seeds_of
 from thermodata.virtual.blind.tally import WITHOUT, rows, wilson
 from thermodata.virtual.blind.trial import judge
 from thermodata.virtual.blind.wording import goals, text, with_a_cause, without
-from thermodata.virtual.lathe.strata import DEVELOPMENT, SEALED, STRATA
+from thermodata.virtual.lathe.strata import STRATA
+from thermodata.virtual.truth.strata import DEVELOPMENT, SEALED
 
 BLANK = {
     "stratum": "strong",
@@ -246,18 +249,54 @@ def test_the_command_says_which_seeds_it_used_and_refuses_to_mix(
     assert main([*command, "--first-seed", str(SEALED.start)]) == 2
     assert "sealed" in capsys.readouterr().err
     assert main([*command, "--hide", "coolant"]) == 2
-    assert main(["benchmark-diagnosis", "--sealed"]) == 2
 
 
-def test_a_run_is_asked_for_and_told_without_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_gantry_hides_effects_and_is_counted_by_how_many_are_missing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def one(stratum: str, seed: int, rivals: bool) -> dict[str, object]:
+        more = {"hidden": ["coolant", "hydraulics"], "outcome": "some"} if seed else {"hidden": ["coolant"]}
+        return {**BLANK, "stratum": stratum, "seed": seed, **more}
+
+    monkeypatch.setattr(running, "one", one)
+    command = ["benchmark-diagnosis", "--json", "--hide", "coolant", "--seeds", "3"]
+    assert main(command) == 0
+    answer = json.loads(capsys.readouterr().out)
+    counted = {r["stratum"]: r["machines"] for r in answer["summary"]}
+    assert counted == {"coolant": 3, "1 missing": 1, "2 missing": 2, "all with a cause": 3}
+    several = "several hidden: some found, nothing wrong"
+    assert next(r["value"]["hits"] for r in answer["overall"] if r["question"] == several) == 2
+    assert main([*command, "--not-logged"]) == 0
+    assert {t["stratum"] for t in json.loads(capsys.readouterr().out)["trials"]} == {"coolant, not logged"}
+    assert main([*command, "--stratum", "strong"]) == 2
+    assert main(["benchmark-diagnosis", "--hide", "none", "--not-logged"]) == 2, "none has no sensors"
+    assert main(["benchmark-diagnosis", "--hide", "coolnat"]) == 2
+    assert "coolant" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("machine", "stratum", "of_another"), [("lathe", "strong", "coolant"), ("gantry", "coolant", "strong")]
+)
+def test_a_run_is_asked_for_and_told_without_a_command(
+    monkeypatch: pytest.MonkeyPatch, machine: str, stratum: str, of_another: str
+) -> None:
     monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
-    asked = Asked(range(SEALED.start, SEALED.start + 2), ("strong",))
+    used = range(SEALED.start, SEALED.start + 2)
+    asked = Asked(machine, used, (stratum,))
     found = asked.answered()
     assert found.seeds == asked.which == f"sealed seeds {SEALED.start} to {SEALED.start + 1}"
-    assert found.to_json()["machine"] == "lathe"
+    assert found.to_json()["machine"] == machine
     assert "probabilities  none stated" in text(found)
-    with pytest.raises(UsageError, match="stong"):
-        Asked(range(2), ("stong",))
+    for wrong in (stratum[:-1], of_another):
+        with pytest.raises(UsageError, match=f"no stratum '{wrong}'"):
+            Asked(machine, used, (wrong,))
+
+
+def test_every_stratum_of_a_machine_is_asked_where_none_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
+    for machine, strata in MACHINES.items():
+        assert [t["stratum"] for t in Asked(machine, range(1)).answered().trials] == list(strata)
+    assert set(OFFERED) == set(MACHINES), "what the command offers is what can be judged"
 
 
 def test_machines_that_share_their_heat_go_to_one_process() -> None:

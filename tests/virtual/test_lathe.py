@@ -18,11 +18,12 @@ from thermodata.virtual.lathe.logs import simulate_lathe
 from thermodata.virtual.lathe.losses import bearing_w, film_of, forced_cubed, motor_w, sliding_w
 from thermodata.virtual.lathe.march import Task, solve, solve_all
 from thermodata.virtual.lathe.programme import DT_S, Work, work
-from thermodata.virtual.lathe.right_names import RIGHT, mark
+from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.rods import STEEL, Body, Stack
 from thermodata.virtual.lathe.sensors import BY_NAME
-from thermodata.virtual.lathe.strata import DEVELOPMENT, SEALED, STRATA
+from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import DECOY, World, correlation, make_world
+from thermodata.virtual.truth.strata import DEVELOPMENT, SEALED
 
 SEED = 90
 ROD = Stack((Body("rod", 0.3, 9, 0.01, 0.1, STEEL), Body("other", 0.3, 9, 0.01, 0.1, STEEL)))
@@ -191,7 +192,7 @@ def test_a_decoy_goes_with_the_driver_and_sits_elsewhere(seed: int) -> None:
     assert 0.97 < correlation(world.runs, world.decoy_of, DECOY) < 0.9999
     decoy = next(s for s in world.sensors if s.name == DECOY)
     assert decoy.at != BY_NAME[world.decoy_of].at
-    assert mark(world.hidden[0], "hydraulics", [DECOY], "hydraulics") in ("wrong", "family")
+    assert RIGHT[world.hidden[0]].mark("hydraulics", [DECOY], "hydraulics") in ("wrong", "family")
 
 
 def test_with_nothing_hidden_the_truth_is_what_the_model_names() -> None:
@@ -297,10 +298,10 @@ def test_an_unknown_stratum_is_answered_with_the_nearest() -> None:
 
 def test_every_cause_can_be_marked_and_a_wrong_place_is_wrong() -> None:
     assert set(RIGHT) == set(CAUSES)
-    assert mark("nut_z", "feed_screw", ["C01_nutZ"], "feed_z") == "exact"
-    assert mark("nut_z", "lag", ["v_Z"], "generic") == "equivalent"
-    assert mark("nut_z", "feed_motor", ["T_mot_Z"], "feed_z") == "family"
-    assert mark("nut_z", "feed_screw", ["C02_nutX"], "feed_x") == "wrong"
+    assert RIGHT["nut_z"].mark("feed_screw", ["C01_nutZ"], "feed_z") == "exact"
+    assert RIGHT["nut_z"].mark("lag", ["v_Z"], "generic") == "equivalent"
+    assert RIGHT["nut_z"].mark("feed_motor", ["T_mot_Z"], "feed_z") == "family"
+    assert RIGHT["nut_z"].mark("feed_screw", ["C02_nutX"], "feed_x") == "wrong"
 
 
 def test_the_written_campaign_comes_back_as_the_dataset_in_memory(

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import permutations
 
 import pytest
 
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
-from thermodata.virtual.blind.marking import claims_of, head_of, marks_of, outcome_of, refinements_of
+from thermodata.virtual.lathe.right_names import RIGHT
+from thermodata.virtual.truth.marking import Key, claims_of, head_of, outcome_of, refinements_of
+from thermodata.virtual.truth.marking import marks_of as marked_by
 
 FAMILY = {"feed_screw": "feed_z", "ambient_frame": "ambient", "lag": "", "hydraulics": "hydraulics"}
 
@@ -35,6 +38,12 @@ def answered(verdict: str, *candidates: Candidate) -> Diagnosis:
             "artefacts": [],
         }
     )
+
+
+def marks_of(
+    hidden: Sequence[str], claims: Sequence[Candidate], broken: str | None = None, alike: Sequence[tuple[str, str]] = ()
+) -> tuple[list[str], int]:
+    return marked_by(Key(tuple(hidden), RIGHT, broken, frozenset(alike)), claims)
 
 
 SCREW, AIR, OIL = said("feed_screw:C01_nutZ"), said("ambient_frame:A2_low"), said("hydraulics:C11_oil")
@@ -140,3 +149,20 @@ def test_the_first_is_the_likeliest_where_probabilities_are_stated() -> None:
 def test_a_broken_channel_names_nothing_whatever_it_is_a_twin_of() -> None:
     assert marks_of(("nut_z",), [TWIN], broken="C13") == (["wrong"], 1)
     assert marks_of(("nut_z",), [SCREW], broken="C13") == (["exact"], 0)
+
+
+def test_what_does_on_the_open_tests_what_the_cause_does_is_neither_wrong_nor_right() -> None:
+    alike = [(RIB_LAG.id, "nut_z")]
+    assert marks_of(("nut_z",), [RIB_LAG]) == (["wrong"], 1)
+    marks, missed = marks_of(("nut_z",), [RIB_LAG], alike=alike)
+    assert (marks, missed) == (["alike"], 0)
+    assert outcome_of("effect", marks, missed, nothing=False) == "alike"
+    assert marks_of(("nut_z",), [RIB_LAG], broken="C07_rib", alike=alike) == (["wrong"], 1)
+
+
+def test_beside_the_cause_itself_its_imitator_is_a_wrong_name() -> None:
+    alike = [(RIB_LAG.id, "nut_z")]
+    assert marks_of(("nut_z",), [SCREW, RIB_LAG], alike=alike) == (["exact", "wrong"], 0)
+    marks, missed = marks_of(HIDDEN[:2], [AIR, RIB_LAG], alike=alike)
+    assert (marks, missed) == (["exact", "alike"], 0)
+    assert outcome_of("effect", marks, missed, nothing=False) == "alike"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from thermodata.virtual.blind.goals import overall
 from thermodata.virtual.blind.run import run
 from thermodata.virtual.blind.tally import WITH_A_CAUSE, WITHOUT, rows
-from thermodata.virtual.lathe.strata import DEVELOPMENT
+from thermodata.virtual.truth.strata import DEVELOPMENT
 
 SAMPLE = {76: ("strong",), 72: ("none_full", "sensor_fault")}
 

@@ -51,6 +51,19 @@ def test_the_baseline_lacks_the_hidden_effect_only(worlds: dict[str, World], hid
         assert set(drivers_of(e, world.axis).values()) <= names, f"{e} is not measured"
 
 
+def test_the_machine_of_the_demo_stays_as_it_is(worlds: dict[str, World]) -> None:
+    """README.md prints what the demo says of seed 7."""
+    world = worlds["feed_screw"]
+    assert world.axis == "Z"
+    assert {e: round(float(v[2]), 4) for e, v in world.levers.items()} == {
+        "spindle_bearing": -0.4262,
+        "ambient_frame": -0.2554,
+        "cutting_power": -0.2713,
+        "table_bearing": -0.7725,
+        "feed_screw": 0.2653,
+    }
+
+
 def test_with_nothing_hidden_the_baseline_has_all() -> None:
     world = make_world("none", 3, tests=3, hours=3)
     assert [e.effect for e in world.baseline().effects] == list(world.present)

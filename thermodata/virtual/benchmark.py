@@ -1,101 +1,97 @@
-"""The blind benchmark of the diagnosis: virtual machines with one effect hidden, or none, or one not logged."""
+"""The library's own machine as the blind benchmark judges it: one effect hidden, or none, or one not logged.
+
+A stratum is the effect that is hidden in any case. How many of the others the model lacks is drawn (`as_drawn`).
+"""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from time import perf_counter
-from typing import Any, Literal
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
-from thermodata.diagnosis.answer import answer
-from thermodata.effect import effects
-from thermodata.modelling.fit.model import fit_model
-from thermodata.plugin import Effect
-from thermodata.schema.answers.diagnosis import Diagnosis
+import numpy as np
+
+from thermodata.errors import unknown_name
+from thermodata.plugin import Float1D
+from thermodata.schema.files.model import EffectSpec
+from thermodata.virtual.as_drawn import as_drawn, thinly
 from thermodata.virtual.binned import to_dataset
-from thermodata.virtual.world import make_world
+from thermodata.virtual.catalogue import EFFECTS, drivers_of
+from thermodata.virtual.plan import STEP_S
+from thermodata.virtual.right_names import names_of
+from thermodata.virtual.truth.case import Case
+from thermodata.virtual.truth.marking import Key
+from thermodata.virtual.truth.strata import Stratum
+from thermodata.virtual.world import Run, World, all_but_the_hidden_one, make_world
 
-Outcome = Literal["right", "equivalent", "family", "wrong", "abstained", "false claim"]
 NONE = "none"
+NOT_LOGGED = ", not logged"
+_STEP_S = 60.0
+STRATA: Mapping[str, Stratum] = {
+    **{hide: Stratum(h.meaning, more=True) for hide, h in EFFECTS.items()},
+    NONE: Stratum("nothing hidden, the model knows all that the machine has, from one effect on", hidden=0),
+    **{
+        f"{hide}{NOT_LOGGED}": Stratum(f"{h.meaning}, and no sensor tells it", blind=True)
+        for hide, h in EFFECTS.items()
+    },
+}
 
 
-@dataclass(frozen=True, slots=True)
-class Trial:
-    """One machine. logged: whether the channels of the hidden effect were left in the log."""
+def strata_of(hide: Sequence[str], *, logged: bool) -> tuple[str, ...]:
+    """Of effects to hide, each in turn where none is named; logged: whether sensors tell what is hidden.
 
-    hidden: str
-    seed: int
-    logged: bool
-    verdict: str
-    found: str | None
-    equivalent: tuple[str, ...]
-    outcome: Outcome
-    rmse_um_before: float | None
-    rmse_um_after: float | None
-    locked_rmse_um_before: float | None
-    locked_rmse_um_after: float | None
-    seconds: float
-
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
+    UsageError for what can't be hidden; none has no sensors that could be left out.
+    """
+    choices = [*EFFECTS, *([NONE] if logged else [])]
+    for name in hide:
+        if name not in choices:
+            raise unknown_name("effect to hide", name, choices)
+    return tuple(name if logged else f"{name}{NOT_LOGGED}" for name in hide or choices)
 
 
-def benchmark(hides: Iterable[str], seeds: Iterable[int], *, logged: bool) -> Iterator[Trial]:
-    """Diagnose every combination; the worlds' truth is used for marking only."""
-    library = effects()
-    for seed in seeds:
-        for hide in hides:
-            world = make_world(hide, seed, measured=logged)
-            data, spec = to_dataset(world, 60.0), world.baseline()
-            family = true_family(hide, world.axis, library)
-            start = perf_counter()
-            found = answer(fit_model(spec, data, uncertainty=False), data, library, "benchmark").diagnosis
-            yield _trial(hide, seed, logged, family, found, perf_counter() - start)
-
-
-def true_family(hide: str, axis: str, library: Mapping[str, Effect]) -> str:
-    """The family of the hidden effect, with the axis that it acts on."""
-    return library[hide].family.replace("{a}", axis.lower()).replace("{s}", "") if hide in library else hide
-
-
-def mark(hide: str, family: str, effect: str, claimed_family: str, equivalent: Sequence[str]) -> Outcome:
-    """A claim against the truth: the effect on the right part, a twin of it, its family, or none of these."""
-    if effect == hide and claimed_family == family:
-        return "right"
-    if hide in {name.split(":")[0] for name in equivalent}:
-        return "equivalent"
-    return "family" if claimed_family == family else "wrong"
-
-
-def marks(trials: Sequence[Mapping[str, Any]]) -> dict[str, int]:
-    """How many machines, how many claims, and how each trial ended."""
-    ends = Counter(str(trial["outcome"]) for trial in trials)
-    return {"machines": len(trials), "claims": sum(trial["found"] is not None for trial in trials), **ends}
-
-
-def _trial(hide: str, seed: int, logged: bool, family: str, found: Diagnosis, seconds: float) -> Trial:
-    claimed = next((c for c in found.candidates if c.claimed), None)
-    outcome: Outcome
-    if claimed is None:
-        outcome = "right" if hide == NONE or not logged else "abstained"
-    elif hide == NONE:
-        outcome = "false claim"
-    else:
-        outcome = mark(hide, family, claimed.effect, claimed.family, claimed.equivalent)
-        if outcome == "wrong" and not logged:
-            outcome = "false claim"
-    return Trial(
-        hide,
+def case_of(stratum: str, seed: int) -> Case:
+    """The machine of a seed. A cause that is not logged is the only one that its model lacks."""
+    blind = STRATA[stratum].blind
+    world = make_world(
+        stratum.removesuffix(NOT_LOGGED),
         seed,
-        logged,
-        found.verdict,
-        claimed.id if claimed else None,
-        tuple(claimed.equivalent) if claimed else (),
-        outcome,
-        claimed.rmse_um_before if claimed else found.rmse_um,
-        claimed.rmse_um_after if claimed else None,
-        claimed.locked_rmse_um_before if claimed else None,
-        claimed.locked_rmse_um_after if claimed else None,
-        seconds,
+        measured=not blind,
+        draw=as_drawn,
+        knows=all_but_the_hidden_one if blind else thinly,
     )
+    hidden = tuple(e for e in world.present if e not in world.known)
+    if blind:
+        world = _without_sensors(world, hidden)
+    names = names_of(world.axis, world.sensors)
+    logged = {s.name for s in world.sensors}
+    nothing = not any(logged.issuperset(channels) for e in hidden for _, channels in names[e].exact)
+    return Case(
+        stratum,
+        seed,
+        world.response,
+        to_dataset(world, _STEP_S),
+        world.baseline(),
+        Key(hidden, names),
+        nothing,
+        world.known,
+        by_speed=False,
+        right={} if nothing else {e: EffectSpec(effect=e, drivers=dict(drivers_of(e, world.axis))) for e in hidden},
+        contribution=tuple(_contribution(world, r, hidden) for r in world.runs),
+        faults=(),
+        rounds=1,
+        imitated=True,
+    )
+
+
+def _without_sensors(world: World, hidden: tuple[str, ...]) -> World:
+    """Without any channel that names what is hidden, but for those that the model needs."""
+    names = names_of(world.axis, world.sensors)
+    own = {c for e in hidden for _, channels in names[e].exact for c in channels}
+    needed = {c for e in world.known for c in drivers_of(e, world.axis).values()}
+    return replace(world, sensors=tuple(s for s in world.sensors if s.name not in own - needed))
+
+
+def _contribution(world: World, run: Run, hidden: tuple[str, ...]) -> Float1D:
+    """What the hidden effects do to the response in a test, on the grid of the data, shape (n,) [um]."""
+    per = round(_STEP_S / STEP_S)
+    total = sum((run.contributions[e][world.axis_index] for e in hidden), np.zeros(run.op.n))
+    return np.asarray(total[: run.op.n // per * per].reshape(-1, per).mean(axis=1))

@@ -1,7 +1,8 @@
 """Which effects a machine has, and how its geometry carries each to the tool centre point.
 
-A hidden effect must be one that a lab could find: big enough in several tests, and not a copy of what the known
-effects do together. Sets of effects are drawn until the hidden one is so, and its lever may grow a little.
+Of a demonstration (`draw_levers`) the hidden effect must be one that a lab could find: big enough in several tests,
+and not a copy of what the known effects do together. Sets of effects are drawn until the hidden one is so, and its
+lever may grow a little. What judges the diagnosis takes them as they come (`as_drawn`).
 """
 
 from __future__ import annotations
@@ -15,23 +16,23 @@ from thermodata.plugin import Float1D, Float2D
 from thermodata.virtual.catalogue import EFFECTS
 from thermodata.virtual.plan import STEP_S, Operation
 
+Units = Sequence[Mapping[str, Float1D]]  # of each test, effect -> its course at lever 1, shape (n,) [um]
+Levers = dict[str, Float1D]  # effect -> along X, Y, Z, shape (3,)
 POOL = tuple(k for k in EFFECTS if k not in ("spindle_bearing", "ambient_frame"))
 DETECTABLE_UM, DETECTABLE_LOCKED_UM = 2.7, 2.3  # [um] standard deviation: third best test, locked test
 OWN_UM, LARGEST_UM, DRAWS = 1.1, 18.0, 40  # [um] what no other effect can imitate; [um] best test
 EVERY = 30  # steps: one sample in 300 s is enough to compare shapes
 
 
-def draw_levers(
-    rng: np.random.Generator, hide: str, axis: int, units: Sequence[Mapping[str, Float1D]], ops: Sequence[Operation]
-) -> dict[str, Float1D]:
+def draw_levers(rng: np.random.Generator, hide: str, axis: int, units: Units, ops: Sequence[Operation]) -> Levers:
     """effect -> lever along X, Y, Z, shape (3,), for the effects that are present. units: micrometres at lever 1."""
-    best: tuple[float, dict[str, Float1D]] = (-1.0, {})
+    best: tuple[float, Levers] = (-1.0, {})
     for _ in range(DRAWS):
-        levers = {e: _lever(rng, e, axis, units, ops) for e in _present(rng, hide, axis)}
+        levers = {e: _telling(rng, e, axis, units, ops) for e in present(rng, hide, axis)}
         if hide == "none":
             return levers
         own = own_um(hide, levers, axis, units, ops)
-        largest = max(_spread(hide, units, ops)) * abs(levers[hide][axis])
+        largest = max(spread(hide, units, ops)) * abs(levers[hide][axis])
         grow = float(np.clip(OWN_UM / max(own, 1e-9), 1.0, max(1.0, min(1.7, LARGEST_UM / largest))))
         levers[hide] = levers[hide] * grow
         if own * grow > best[0]:
@@ -45,7 +46,7 @@ def own_um(
     effect: str,
     levers: Mapping[str, Float1D],
     axis: int,
-    units: Sequence[Mapping[str, Float1D]],
+    units: Units,
     ops: Sequence[Operation],
 ) -> float:
     """Root mean square of what the other effects, with any gains and slower by any lag, leave of `effect` [um]."""
@@ -73,7 +74,7 @@ def _shapes(u: Float1D) -> list[Float2D]:
     return out
 
 
-def _present(rng: np.random.Generator, hide: str, axis: int) -> tuple[str, ...]:
+def present(rng: np.random.Generator, hide: str, axis: int) -> tuple[str, ...]:
     """Four to six effects beside the hidden one; no two of one family, the hidden one's excepted."""
     chosen = ["spindle_bearing", "ambient_frame"]
     taken = {EFFECTS[e].family for e in chosen if e != hide}
@@ -91,25 +92,29 @@ def _present(rng: np.random.Generator, hide: str, axis: int) -> tuple[str, ...]:
     return tuple(chosen)
 
 
-def _spread(effect: str, units: Sequence[Mapping[str, Float1D]], ops: Sequence[Operation]) -> list[float]:
+def spread(effect: str, units: Units, ops: Sequence[Operation]) -> list[float]:
+    """Standard deviation of an effect at lever 1 over the measured samples of each test [um]."""
     return [float(np.std(u[effect][op.measuring])) for u, op in zip(units, ops, strict=True)]
 
 
-def _lever(
-    rng: np.random.Generator, effect: str, axis: int, units: Sequence[Mapping[str, Float1D]], ops: Sequence[Operation]
-) -> Float1D:
+def _telling(rng: np.random.Generator, effect: str, axis: int, units: Units, ops: Sequence[Operation]) -> Float1D:
     """Drawn so that the effect is seen: in its best test, in three tests, in the locked one."""
     h = EFFECTS[effect]
-    spread = _spread(effect, units, ops)
-    ranked = sorted(spread, reverse=True)
+    sizes = spread(effect, units, ops)
+    ranked = sorted(sizes, reverse=True)
     third = ranked[min(2, len(ranked) - 1)]
-    locked = max(s for s, op in zip(spread, ops, strict=True) if op.role == "locked")
+    locked = max(s for s, op in zip(sizes, ops, strict=True) if op.role == "locked")
     size = max(
         float(rng.uniform(*h.rms_um)) / ranked[0],
         DETECTABLE_UM / max(third, 1e-9),
         DETECTABLE_LOCKED_UM / max(locked, 1e-9),
     )
-    size = min(size, LARGEST_UM / ranked[0])
-    lever = size * np.array(h.axes) * rng.uniform(0.5, 1.0, 3) * rng.choice([-1.0, 1.0], 3)
-    lever[axis] = size * rng.choice([-1.0, 1.0])
-    return np.asarray(lever)
+    return lever(rng, effect, axis, min(size, LARGEST_UM / ranked[0]))
+
+
+def lever(rng: np.random.Generator, effect: str, axis: int, size: float) -> Float1D:
+    """Along X, Y, Z, shape (3,): `size` on the response's axis, of either sign, and a share of it on the others."""
+    h = EFFECTS[effect]
+    along = size * np.array(h.axes) * rng.uniform(0.5, 1.0, 3) * rng.choice([-1.0, 1.0], 3)
+    along[axis] = size * rng.choice([-1.0, 1.0])
+    return np.asarray(along)

@@ -7,7 +7,7 @@ library. None is a first-order lag: a fitted sum of lags leaves what a distribut
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,7 +18,7 @@ from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.files.model import Model
 from thermodata.virtual.catalogue import EFFECTS, drivers_of
 from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
-from thermodata.virtual.levers import draw_levers
+from thermodata.virtual.levers import Levers, Units, draw_levers
 from thermodata.virtual.losses import spindle_power
 from thermodata.virtual.machine import Machine, build
 from thermodata.virtual.plan import AXES, MAX_SPEED, Operation, make_plan
@@ -40,7 +40,8 @@ class Run:
 
 @dataclass(frozen=True)
 class World:
-    """present: all effects that the machine has, the hidden one among them. levers: effect -> (3,) along X, Y, Z."""
+    """present: all effects that the machine has, the hidden one among them; known: those that the lab's model has.
+    levers: effect -> (3,) along X, Y, Z."""
 
     seed: int
     hide: str
@@ -49,7 +50,8 @@ class World:
     hall: Hall
     sensors: tuple[Sensor, ...]
     present: tuple[str, ...]
-    levers: dict[str, Float1D]
+    known: tuple[str, ...]
+    levers: Levers
     noise_um: float
     white_um: float
     runs: tuple[Run, ...]
@@ -83,7 +85,7 @@ class World:
         }
 
     def baseline(self) -> Model:
-        """The model of the lab: every effect of the world but the hidden one."""
+        """The model of the lab: the effects of the world that it knows."""
         return Model.model_validate(
             {
                 "schema": "thermodata/model/1",
@@ -91,17 +93,34 @@ class World:
                 "campaign": self.campaign,
                 "response": {"axis": self.axis, "at": "tcp"},
                 "step": "60 s",
-                "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != self.hide],
+                "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.known],
             }
         )
 
 
+Draw = Callable[[np.random.Generator, str, int, Units, Sequence[Operation]], Levers]
+Knows = Callable[[np.random.Generator, str, Sequence[str]], tuple[str, ...]]
+
+
+def all_but_the_hidden_one(rng: np.random.Generator, hide: str, present: Sequence[str]) -> tuple[str, ...]:
+    """What the lab's model has, where a demonstration asks what is missing."""
+    return tuple(e for e in present if e != hide)
+
+
 def make_world(
-    hide: str = "none", seed: int = 0, *, tests: int | None = None, hours: float = 12.0, measured: bool = True
+    hide: str = "none",
+    seed: int = 0,
+    *,
+    tests: int | None = None,
+    hours: float = 12.0,
+    measured: bool = True,
+    draw: Draw = draw_levers,
+    knows: Knows = all_but_the_hidden_one,
 ) -> World:
     """Simulates a campaign. measured=False leaves out the sensors that drive the hidden effect.
 
-    UsageError for an unknown effect, fewer than two tests or less than two hours.
+    draw: which effects the machine has, and their levers. knows: which of them the lab's model has. UsageError for an
+    unknown effect, fewer than two tests or less than two hours.
     """
     _refuse(hide, seed, tests, hours)
     rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
@@ -113,8 +132,9 @@ def make_world(
     starts = _starts(rng, len(ops), hours)
     outside = [air(hall, op, hour, day, rng) for op, (day, hour) in zip(ops, starts, strict=True)]
     temperatures, units = _in_the_machine(machine, ops, outside, sensors, AXES[axis], rng)
-    levers = draw_levers(rng, hide, axis, units, ops)
+    levers = draw(rng, hide, axis, units, ops)
     present = tuple(levers)
+    known = knows(np.random.default_rng([seed, 7927, sum(map(ord, hide))]), hide, present)
     sensors = _placed(sensors, spare, present, AXES[axis], hide if not measured else None)
     noise, white = float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.1, 0.25))
     runs = []
@@ -124,7 +144,7 @@ def make_world(
         total = total + np.stack([smooth(rng, op.n, noise, float(rng.uniform(600, 2400))) for _ in range(3)])
         readings = {s.name: s.read(_true(s, cells, boundary, op), rng) for s in sensors}
         runs.append(Run(op, EPOCH_S + 86_400.0 * day + 3600.0 * hour, readings, contributions, total))
-    return World(seed, hide, AXES[axis], machine, hall, sensors, present, levers, noise, white, tuple(runs))
+    return World(seed, hide, AXES[axis], machine, hall, sensors, present, known, levers, noise, white, tuple(runs))
 
 
 EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague

@@ -14,7 +14,8 @@ import numpy as np
 
 from thermodata.diagnosis.case import Case
 from thermodata.diagnosis.concluded import Concluded
-from thermodata.diagnosis.question.discrepancy import Noise, chain_of, free_of
+from thermodata.diagnosis.question.chain import chain_of
+from thermodata.diagnosis.question.discrepancy import Noise, free_of
 from thermodata.diagnosis.question.known import Known, known
 from thermodata.diagnosis.question.problem import Block, Problem, freed
 from thermodata.diagnosis.verdict.judge import Judged
@@ -72,7 +73,7 @@ def whitened(blocks: Sequence[Block], noise: Noise) -> Weighing:
 
     def weighing(test: int, columns: Float2D) -> Float2D:
         block, size = blocks[test], len(columns)
-        chain = chain_of([block.t_s[:size]], noise)
+        chain = chain_of([block.t_s[:size]], noise.white, noise.slow, noise.tau_s)
         free = free_of(block)[:size]
         white = chain.halved(np.hstack([columns, free[:, np.abs(free).max(axis=0) > 0]]))
         own, offsets = white[:, : columns.shape[1]], np.linalg.qr(white[:, columns.shape[1] :])[0]

@@ -9,19 +9,21 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.report.page.write import write_page
 from thermodata.virtual.blind.counted import Counted, counted
 from thermodata.virtual.blind.diagram import diagram
+from thermodata.virtual.blind.machines import MACHINES
 from thermodata.virtual.blind.run import Told, run
 from thermodata.virtual.blind.seeds import set_name
-from thermodata.virtual.lathe.strata import SEALED, STRATA
+from thermodata.virtual.truth.strata import SEALED
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """used: seeds of one set, as `seeds_of` gives them. strata: every one where none is named. jobs, rivals, out: as in
-    `run`. picture: where the reliability is drawn.
+    """machine: one of `MACHINES`. used: seeds of one set, as `seeds_of` gives them. strata: of the machine, every one
+    where none is named. jobs, rivals, out: as in `run`. picture: where the reliability is drawn.
 
-    UsageError for a name that is no stratum, and a picture that is no SVG.
+    UsageError for a name that is no stratum of the machine, and a picture that is no SVG.
     """
 
+    machine: str
     used: range
     strata: tuple[str, ...] = ()
     jobs: int = 1
@@ -31,8 +33,8 @@ class Asked:
 
     def __post_init__(self) -> None:
         for name in self.strata:
-            if name not in STRATA:
-                raise unknown_name("stratum", name, list(STRATA))
+            if name not in MACHINES[self.machine]:
+                raise unknown_name("stratum", name, list(MACHINES[self.machine]))
         if self.picture is not None and self.picture.suffix.lower() != ".svg":
             raise UsageError(
                 "the diagram is drawn as SVG",
@@ -49,9 +51,9 @@ class Asked:
 
     def answered(self, tell: Told | None = None) -> Counted:
         """Every trial made, or taken from `out`, and counted. tell, errors: as in `run`."""
-        strata = self.strata or tuple(STRATA)
+        strata = self.strata or tuple(MACHINES[self.machine])
         trials = run(strata, self.used, jobs=self.jobs, rivals=self.rivals, out=self.out, tell=tell)
-        return counted(trials, self.which)
+        return counted(trials, self.machine, self.which)
 
     def drawn(self, found: Counted) -> bool:
         """Writes the picture, where one is asked for; False where no answer states a probability that it could show."""

@@ -13,9 +13,10 @@ from thermodata.virtual.blind.tally import Row, rows
 
 @dataclass(frozen=True, slots=True)
 class Counted:
-    """seeds: which, in words. rules: the fingerprint of the code that all trials are of. summary: a row a stratum;
-    goals: a row a question, as in `overall`."""
+    """machine: which all trials are of. seeds: which, in words. rules: the fingerprint of the code that all trials are
+    of. summary: a row a stratum; goals: a row a question, as in `overall`."""
 
+    machine: str
     seeds: str
     rules: str
     trials: Sequence[Row]
@@ -25,7 +26,7 @@ class Counted:
 
     def to_json(self) -> dict[str, Any]:
         return {
-            "machine": "lathe",
+            "machine": self.machine,
             "seeds": self.seeds,
             "rules": self.rules,
             "overall": self.goals,
@@ -35,6 +36,6 @@ class Counted:
         }
 
 
-def counted(trials: Sequence[Row], seeds: str) -> Counted:
-    """trials: as `run` gives them, at least one. seeds: which, in words."""
-    return Counted(seeds, trials[0]["rules"], trials, rows(trials), overall(trials), reliability(trials))
+def counted(trials: Sequence[Row], machine: str, seeds: str) -> Counted:
+    """trials: as `run` gives them, at least one, all of one machine. seeds: which, in words."""
+    return Counted(machine, seeds, trials[0]["rules"], trials, rows(trials), overall(trials), reliability(trials))

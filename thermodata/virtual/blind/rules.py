@@ -10,7 +10,7 @@ from pathlib import Path
 
 from thermodata.effect import effects
 
-JUDGING = ("diagnosis", "modelling", "effect", "virtual/lathe", "virtual/blind")
+JUDGING = ("diagnosis", "modelling", "effect", "virtual")
 
 
 @cache

@@ -13,9 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import UsageError
+from thermodata.virtual.blind.machines import STRATA
 from thermodata.virtual.blind.rules import fingerprint
 from thermodata.virtual.blind.trial import KEYS, judge
-from thermodata.virtual.lathe.strata import SEALED, STRATA
+from thermodata.virtual.truth.strata import SEALED
 
 Record = dict[str, Any]
 Told = Callable[[int, int], None]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from thermodata.errors import UsageError
-from thermodata.virtual.lathe.strata import DEVELOPMENT, SEALED
+from thermodata.virtual.truth.strata import DEVELOPMENT, SEALED
 
 
 def seeds_of(first: int | None, count: int, sealed: bool) -> range:

@@ -7,14 +7,16 @@ from statistics import mean, median
 from typing import Any, get_args
 
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.virtual.blind.machines import STRATA
 from thermodata.virtual.blind.rivals import RIVALS
-from thermodata.virtual.lathe.strata import STRATA
 
 Row = dict[str, Any]
 Trials = Sequence[Mapping[str, Any]]
 NAMED = ("right", "equivalent")
+ENDS = ("right", "told", "alike", "family", "some", "wrong", "abstained")
 VERDICTS: tuple[str, ...] = get_args(Diagnosis.model_fields["verdict"].annotation)
 WITH_A_CAUSE, WITHOUT = "all with a cause", "all without"
+MISSING = {"1 missing": (1,), "2 missing": (2,), "3 missing": (3,), "4 to 6 missing": (4, 5, 6)}
 
 
 def wilson(hits: int, of: int) -> tuple[float, float] | None:
@@ -38,8 +40,9 @@ def asked(t: Mapping[str, Any]) -> bool:
     return bool(t["hidden"]) and not kind.blind and not kind.outside
 
 
-def rows(trials: Trials) -> list[Row]:
-    """One a stratum, in the order of `STRATA`, and two for all: with a cause to be named, and with none.
+def groups(trials: Trials) -> list[tuple[str, Trials]]:
+    """The trials of each stratum, in the order of `STRATA`; of strata that hide as many causes as are drawn, those with
+    each number of them, too.
 
     Machines with nothing hidden and a thin model are told apart by what that model knows of the spindle: its speed
     alone, which leaves much over that is no missing cause, or the temperature of its bearing.
@@ -47,13 +50,20 @@ def rows(trials: Trials) -> list[Row]:
     found = []
     for name in STRATA:
         own = [t for t in trials if t["stratum"] == name]
-        found.append(row(name, own))
+        found.append((name, own))
         if STRATA[name].base == "thin":
-            found.append(row(f"{name}, by speed", [t for t in own if t["by_speed"]]))
-            found.append(row(f"{name}, by heat", [t for t in own if not t["by_speed"]]))
-    found.append(row(WITH_A_CAUSE, [t for t in trials if asked(t)]))
-    found.append(row(WITHOUT, [t for t in trials if not asked(t)]))
-    return [r for r in found if r["machines"]]
+            found.append((f"{name}, by speed", [t for t in own if t["by_speed"]]))
+            found.append((f"{name}, by heat", [t for t in own if not t["by_speed"]]))
+    drawn = [t for t in trials if STRATA[t["stratum"]].more]
+    found += [(name, [t for t in drawn if len(t["hidden"]) in of]) for name, of in MISSING.items()]
+    return [(name, own) for name, own in found if own]
+
+
+def rows(trials: Trials) -> list[Row]:
+    """One a group, and two for all: with a cause to be named, and with none."""
+    able, rest = [t for t in trials if asked(t)], [t for t in trials if not asked(t)]
+    every = [*groups(trials), (WITH_A_CAUSE, able), (WITHOUT, rest)]
+    return [row(name, own) for name, own in every if own]
 
 
 def row(name: str, trials: Trials) -> Row:
@@ -62,7 +72,10 @@ def row(name: str, trials: Trials) -> Row:
     able = [t for t in trials if asked(t)]
     rest = [t for t in trials if not asked(t)]
     tried = [t for t in able if t["rivals"]]
-    ends = {e: sum(t["outcome"] == e for t in able) for e in ("right", "told", "family", "some", "wrong", "abstained")}
+    ends = {
+        e: sum(t["outcome"] == e for t in able)
+        for e in ("right", "told", "alike", "family", "some", "wrong", "abstained")
+    }
     shares = [t["share"] for t in able if t["share"] is not None]
     of_claims = [t["share"] for t in able if t["share"] is not None and t["claims"]]
     broken = [t for t in trials if t["broken"] is not None]

@@ -37,6 +37,7 @@ def with_a_cause(found: Sequence[Row]) -> list[Row]:
             "named right": interval(r["named"]),
             "exact": r["exact"],
             "told": r["told"],
+            "alike": r["alike"],
             "family": r["family"],
             "some": r["some"],
             "wrong": r["wrong"],

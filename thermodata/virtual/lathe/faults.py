@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from thermodata.virtual.lathe.programme import DT_S
 from thermodata.virtual.lathe.recording import Run
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """kind: offset, stuck, wander (of `channel`), step (of the probe), clock_offset. at_s: from the test's start."""
-
-    kind: str
-    test: str
-    at_s: float | None
-    size: float
-    channel: str
+from thermodata.virtual.truth.case import Fault
 
 
 def blemish(runs: Sequence[Run], channel: str, rng: np.random.Generator) -> tuple[list[Run], Fault]:
