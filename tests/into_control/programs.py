@@ -126,7 +126,7 @@ def day(channels: Mapping[str, str], cycle_s: float, hours: float = 24.0, seed: 
             out[channel] = (steps > 0.5).astype(np.float64)
         else:
             top = {"rotational_speed": 9000.0, "feed": 15.0, "power": 8.0, "load": 100.0}
-            top |= {"irradiance": 600.0, "flow": 20.0}
+            top |= {"irradiance": 600.0, "flow": 20.0, "torque": 40.0, "current": 60.0}
             out[channel] = steps * top.get(quantity, 1.0)
     return out
 

@@ -37,11 +37,15 @@ def test_a_further_fit_to_the_same_samples_asks_for_no_column_again(
     world: Dataset, spec: Spec, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[Any] = []
-    original = lead.guarded_basis
+    one, several = lead.guarded_basis, lead.guarded_bases
 
     def counted(*of: Any) -> Any:
         asked.append(of)
-        return original(*of)
+        return one(*of)
+
+    def counted_of_each(effect: Any, of: Any, points: Any) -> Any:
+        asked.extend((effect, drivers, point) for drivers in of for point in points)
+        return several(effect, of, points)
 
     def fitted(data: Dataset, *effects: str) -> tuple[dict[str, float], int]:
         asked.clear()
@@ -49,6 +53,7 @@ def test_a_further_fit_to_the_same_samples_asks_for_no_column_again(
         return {n: p.value for n, p in found.items()}, len(asked)
 
     monkeypatch.setattr(lead, "guarded_basis", counted)
+    monkeypatch.setattr(lead, "guarded_bases", counted_of_each)
     data = replace(world, tests=tuple(replace(t) for t in world.tests))
     alone, _ = fitted(data, *EFFECTS[:1])
     first, many = fitted(replace(data, tests=tuple(replace(t) for t in data.tests)), *EFFECTS)

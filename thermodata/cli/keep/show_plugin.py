@@ -19,6 +19,7 @@ _OF_EFFECTS = (
     "source",
     "refines",
     "told_by",
+    "closed_by",
     "asked",
     "roles",
     "parameters",
