@@ -15,8 +15,9 @@ from thermodata.report.page.headline import headline, sentences
 from thermodata.report.page.page import render
 from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.refined import named
-from thermodata.report.verdict.verdict import explainable, in_parts, probability, told, verdict_sentence
+from thermodata.report.verdict.verdict import explainable, probability, told, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
 from thermodata.schema.answers.missing_heat import Unknown

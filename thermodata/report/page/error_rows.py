@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from thermodata.modelling.compare.common import on_common
 from thermodata.report.collected.data import ReportData
 from thermodata.report.verdict.candidate_errors import beside
-from thermodata.report.verdict.verdict import claims_of, in_parts
+from thermodata.report.verdict.left_over import in_parts
+from thermodata.report.verdict.verdict import claims_of
 from thermodata.report.words.glossary import ERRORS, PARTS
 from thermodata.report.words.numbers import LITTLE, base_role, pooled, tests_of_role
 from thermodata.schema.answers.candidate import Candidate

@@ -9,10 +9,10 @@ from thermodata.report.text.fit import spots_text
 from thermodata.report.text.parameters import parameters_text
 from thermodata.report.text.table import table
 from thermodata.report.verdict.could_hide import could_hide
-from thermodata.report.verdict.left_over import noise_words
+from thermodata.report.verdict.left_over import in_parts, noise_words
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import to_add
-from thermodata.report.verdict.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
+from thermodata.report.verdict.verdict import explainable, probability, put_right, told, verdict_sentence
 from thermodata.report.words.glossary import PARTS, explained
 from thermodata.report.words.numbers import duration, heat_lines, number
 from thermodata.report.words.of_response import of_response

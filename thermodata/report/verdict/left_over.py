@@ -62,6 +62,20 @@ def most_left(found: Diagnosis) -> str:
     return f"; most in {test}, up to {number(spot.rmse_um)} um over {duration(spot.to_s - spot.from_s)} as it is fitted"
 
 
+def in_parts(found: Diagnosis) -> str:
+    """'2 open tests are too few to leave one out, so 4 parts of them are, each with a level of its own: ...'; '' where
+    tests are."""
+    parts = next((c.left_out for c in found.candidates if c.left_out), [])
+    tests = len({(p.campaign, p.test) for p in parts})
+    if tests == len(parts):
+        return ""
+    few = "1 open test is" if tests == 1 else f"{tests} open tests are"
+    return (
+        f"{few} too few to leave one out, so {len(parts)} parts of {'it' if tests == 1 else 'them'} are, each with a "
+        "level of its own: how a course goes on within hours, not how far a whole test drifts"
+    )
+
+
 def noise_of_left_out(found: Diagnosis) -> float:
     """White noise in the means that left-out tests are compared by, in the response's unit; 0 where none is known."""
     over, compared, noise = found.noise_over_s, found.left_out_over_s, found.noise_um or 0.0

@@ -282,20 +282,6 @@ def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
     return f"{number(locked)} um" if far and locked is not None else ""
 
 
-def in_parts(found: Diagnosis) -> str:
-    """'2 open tests are too few to leave one out, so 4 parts of them are, each with a level of its own: ...'; '' where
-    tests are."""
-    parts = next((c.left_out for c in found.candidates if c.left_out), [])
-    tests = len({(p.campaign, p.test) for p in parts})
-    if tests == len(parts):
-        return ""
-    few = "1 open test is" if tests == 1 else f"{tests} open tests are"
-    return (
-        f"{few} too few to leave one out, so {len(parts)} parts of {'it' if tests == 1 else 'them'} are, each with a "
-        "level of its own: how a course goes on within hours, not how far a whole test drifts"
-    )
-
-
 def explainable(found: Diagnosis) -> str:
     """What the best single candidate takes away, which is no claim; '' where nothing is known of it."""
     if not found.explainable:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
@@ -98,13 +99,13 @@ class Lagged:
         return (f"lag({next(d for d in drives if symbols(tree(d)) <= known)}, tau)",)
 
 
-class FastAndSlow:
+class FastAndSlow(ABC):
     """What a temperature does by two lags, tau_fast and tau_slow. An effect states the attributes of the contract, and
     by `modes` how both make its columns."""
 
+    @abstractmethod
     def modes(self, fast: Float1D, slow: Float1D) -> Float2D:
         """Both lags, shape (n,) each, as columns, shape (n, gains)."""
-        raise NotImplementedError
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         """Shape (n, gains), for gains of 1."""
