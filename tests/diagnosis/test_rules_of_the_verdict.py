@@ -411,3 +411,7 @@ def test_what_the_model_reads_with_others_is_offered_where_nothing_can_be_named(
     assert all(j.refines == PART for j in found.refinements)
     refused = replace(open_still, refused=open_still.judged)
     assert parts_offered(refused, lambda judged: open_still) is refused, "the locked tests do not bear it out"
+    rises = Foretold(1.0, 1.3, 1.0)
+    looked = [replace(j, scored=replace(j.scored, looked=Looked(rises, rises, 0.0))) for j in open_still.judged]
+    asked = replace(open_still, judged=tuple(looked))
+    assert parts_offered(asked, lambda judged: open_still) is asked, "nor what was only likely"

@@ -201,7 +201,9 @@ MUTANTS = [
     diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
     diagnosis("preference.py", 'own.candidate.kin != "part" or', "True or", "the gradient hides a third sensor"),
-    diagnosis("judge.py", 'j.scored.candidate.kin == "part"]', "False]", "what a gradient lacks is unknown"),
+    diagnosis(
+        "judge.py", 'and j.scored.candidate.kin == "part" and', "and False and", "what a gradient lacks is unknown"
+    ),
     diagnosis("kin.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
     diagnosis("kin.py", '    return "part"\n', '    return "same"\n', "the air's lag is a mode of its gradient"),
     diagnosis("kin.py", 'return "near" if switched and not', 'return "near" if not', "a warm bearing is another's"),

@@ -149,9 +149,13 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
 
 def parts_offered(found: Judgement, conclude: Callable[[tuple[Judged, ...]], Judgement]) -> Judgement:
     """The same, where nothing can be named: a sound member that the model reads already together with others, as the
-    air beside its gradient, is offered as more of that, for the tests can't tell which of both it is. conclude: judges
-    members anew."""
-    parts = [j for j in found.judged if j.refines is None and j.scored.candidate.kin == "part"]
+    air beside its gradient, is offered as more of that, for the tests can't tell which of both it is; not where the
+    locked tests were asked for it, and their error falls in neither way. conclude: judges members anew."""
+    parts = [
+        j
+        for j in found.judged
+        if j.refines is None and j.scored.candidate.kin == "part" and not (j.scored.looked and j.scored.looked.refuted)
+    ]
     if found.verdict != "unknown" or found.refused or not parts:
         return found
     offered = tuple(replace(j, refines=PART) if any(j is part for part in parts) else j for j in found.judged)
