@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.sensors.logging_faults import (
@@ -18,7 +19,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_gains,
     wrong_parameters,
 )
-from thermodata.diagnosis.verdict.faults import gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.faults import that_nothing_missing_makes
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.diagnosis import Artefact
@@ -40,7 +41,7 @@ def test_a_moved_clock_must_take_away_two_fifths_of_the_squared_error(error: flo
 def test_of_temperatures_alone_three_quarters(lateness: float, warm: bool, said: bool) -> None:
     """A sensor that lags is late as a clock is."""
     asked, sources = late_by(120.0, lateness)
-    found = clock_offsets(asked, driver, sources, ["T"] if warm else [])
+    found = clock_offsets(asked, driver, by_one_lag, sources, ["T"] if warm else [])
     assert bool(found) is said
 
 
@@ -72,12 +73,44 @@ def driver(test: TestData) -> Float2D:
     return test.values["T"][:, None]
 
 
+def by_one_lag(test: TestData) -> Float2D:
+    """Of effects that act no otherwise than as they are fitted."""
+    return np.zeros((len(test.t_s), 0))
+
+
+def lagged(values: Float1D, tau_s: float) -> Float1D:
+    return np.asarray(lfilter([-np.expm1(-60.0 / tau_s)], [1.0, -np.exp(-60.0 / tau_s)], values))
+
+
+@pytest.mark.parametrize(("passes_two_bodies", "said"), [(True, False), (False, True)])
+def test_heat_that_passes_two_bodies_is_no_clock(passes_two_bodies: bool, said: bool) -> None:
+    """The model has one lag of 25 min, and may act by others of 10 and 60 min. The heat passes a body of 25 min and
+    one of 8; or it passes one, and its log is 8 min early."""
+    rng = np.random.default_rng(3)
+
+    def one() -> Parts:
+        u = np.repeat(rng.uniform(0, 10, 12), 50)
+        late = np.concatenate([np.full(8, u[0]), u[:-8]])
+        y = lagged(lagged(u, 1500.0), 480.0) if passes_two_bodies else lagged(late, 1500.0)
+        return Parts(y - y.mean(), values={"T": u})
+
+    def lag(test: TestData) -> Float2D:
+        return lagged(test.values["T"], 1500.0)[:, None]
+
+    def others(test: TestData) -> Float2D:
+        return np.column_stack([lagged(test.values["T"], tau_s) for tau_s in (600.0, 3600.0)])
+
+    asked = problem(*(one() for _ in range(4)))
+    assert len(clock_offsets(asked, lag, by_one_lag, {"T": "nc"}, [])) == 1
+    assert bool(clock_offsets(asked, lag, others, {"T": "nc"}, [])) is said
+
+
 @pytest.mark.parametrize(
     ("shift_s", "minutes"), [(0.0, None), (300.0, "-5 min"), (-600.0, "+10 min"), (900.0, None), (1800.0, None)]
 )
 def test_a_clock_that_is_off_is_named_with_its_shift(shift_s: float, minutes: str | None) -> None:
     asked, sources = late_by(shift_s)
-    found = clock_offsets(asked, driver, sources, [])
+    found = clock_offsets(asked, driver, by_one_lag, sources, [])
     assert [a.kind for a in found] == ([] if minutes is None else ["clock_offset"])
     assert all("source 'nc'" in a.why and minutes is not None and minutes in a.why for a in found)
 
@@ -184,7 +217,14 @@ def test_a_wrong_gain_is_said_only_with_the_verdict_none_at_the_floor(
 ) -> None:
     faults = [artefact("gain"), artefact("sign")]
     judgement = Judgement(verdict, (), (), (), "")  # type: ignore[arg-type]
-    assert [a.kind for a in gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)] == kinds
+    assert [a.kind for a in that_nothing_missing_makes(faults, judgement, at_floor)] == kinds
+
+
+@pytest.mark.parametrize(("claims", "kinds"), [((), ["clock_offset", "sign"]), (("a claim",), ["sign"])])
+def test_no_clock_is_said_to_be_off_by_a_model_that_lacks_a_cause(claims: tuple[str, ...], kinds: list[str]) -> None:
+    faults = [artefact("clock_offset"), artefact("sign")]
+    judgement = Judgement("effect" if claims else "unknown", claims, (), (), "")  # type: ignore[arg-type]
+    assert [a.kind for a in that_nothing_missing_makes(faults, judgement, False)] == kinds
 
 
 def test_a_fault_is_said_once_a_test() -> None:

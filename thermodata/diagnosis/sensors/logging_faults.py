@@ -38,22 +38,34 @@ def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], r
 
 
 def clock_offsets(
-    problem: Problem, base: Callable[[TestData], Float2D], sources: Mapping[str, str], warm: Collection[str]
+    problem: Problem,
+    base: Callable[[TestData], Float2D],
+    otherwise: Callable[[TestData], Float2D],
+    sources: Mapping[str, str],
+    warm: Collection[str],
 ) -> list[Artefact]:
     """Sources whose drivers would explain more if their clock were moved, the same in all tests.
 
-    base(test): the model's columns, shape (n, k). sources: channel -> source, of the model's drivers. warm: those that
-    are temperatures. The smallest error must lie at a shift, not at zero and not at the end of the range, where
-    something slower is at work.
+    base(test): the model's columns, shape (n, k); otherwise(test): how its effects may act otherwise, likewise.
+    sources: channel -> source, of the model's drivers. warm: those that are temperatures. The smallest error must lie
+    at a shift, not at zero and not at the end of the range, where something slower is at work; and moved, the model
+    must leave as much less where its effects may act otherwise: heat that passes two bodies comes late by itself.
     """
+
+    def freed(test: TestData) -> Float2D:
+        return np.column_stack([base(test), otherwise(test)])
+
     artefacts = []
     now = _error(problem, base, {})
     energy = float(sum(b.response @ b.response for b in problem.blocks))
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
         errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
-        best = shift_that_explains(now, errors, energy, WARM_CLOCK_DROP if names <= {*warm} else CLOCK_DROP)
-        if best is not None:
+        drop = WARM_CLOCK_DROP if names <= {*warm} else CLOCK_DROP
+        best = shift_that_explains(now, errors, energy, drop)
+        if best is not None and (
+            _error(problem, freed, dict.fromkeys(names, best)) < (1 - drop) * _error(problem, freed, {})
+        ):
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
                 Artefact(

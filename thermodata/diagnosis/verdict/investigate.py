@@ -32,7 +32,7 @@ from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.steps.of_model import steps_of_model
 from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.verdict.asked import of_library
-from thermodata.diagnosis.verdict.faults import faults_of_logs, gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.faults import faults_of_logs, that_nothing_missing_makes
 from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
@@ -106,7 +106,7 @@ def investigate(inquiry: Inquiry, given: Given | None = None, prepared: Prepared
     asked_about = fitted if given.as_fitted is None else given.as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     at_floor = selection is not None and selection.left <= measure.floor
-    faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
+    faults = that_nothing_missing_makes(faults, judgement, at_floor)
     if selection is not None and not single:  # a slip is in the fit of the model, and in its error
         faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = _artefacts(inquiry, given.known_faults, found, faults)
