@@ -9,6 +9,7 @@ import pytest
 from thermodata.report.verdict.could_hide import could_be, could_hide
 from thermodata.report.verdict.left_over import left_over
 from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis
+from thermodata.schema.answers.missing_heat import Unknown
 
 from ..answers import diagnosis
 
@@ -134,3 +135,17 @@ def test_what_stands_behind_an_effect_that_acts_otherwise_than_fitted_may_be_mis
     text = left_over(found(*limits).model_copy(update={"fitted_rmse_um": fitted}))
     asks = "bearing (T), which gearbox hides in these tests, may do that instead (thermodata confirm m bearing:T asks"
     assert (asks in text) is told
+
+
+def test_what_the_user_may_ask_for_is_said_with_the_command_that_asks() -> None:
+    asked = diagnosis(
+        verdict="unknown", unknown=Unknown(time_constants_h=[], hours_of_day=[], states=[], by_name=["a:T,z"])
+    )
+    assert could_hide(asked) == (
+        "not asked for by itself, though all that drives it is logged: a (T, z); "
+        f"thermodata confirm {asked.model[:8]} a:T,z asks locked tests of it"
+    )
+    several = Unknown(time_constants_h=[], hours_of_day=[], states=[], by_name=["a:T,z", "b:u"])
+    text = could_hide(asked.model_copy(update={"unknown": several}))
+    assert "themselves, though all that drives them is logged: a (T, z) and b (u); " in text
+    assert text.endswith(" a:T,z asks locked tests of the first")

@@ -10,6 +10,7 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.candidates.by_name import only_by_name
 from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
@@ -27,6 +28,7 @@ from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
+from thermodata.effect.registry import all_effects
 from thermodata.effect.registry import code as code_of_effects
 from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
@@ -102,7 +104,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
         )
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
     asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version}
-    found = outcome.diagnosis.model_copy(update=asked_on)
+    found = _with_unasked(outcome.diagnosis.model_copy(update=asked_on), model)
     if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))
     before = kept_answer(store, model.identity, _question(response))
@@ -114,6 +116,16 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     if not found.not_asked:  # a plugin that was mended is asked, though nothing else has changed
         keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
     return found
+
+
+def _with_unasked(found: Diagnosis, model: Loaded) -> Diagnosis:
+    """Where something is left that may not be named: with what the user may ask for."""
+    if found.unknown is None:
+        return found
+    asked, tests = effects(), model.fitted.tests(model.data)
+    others = [one for name, one in all_effects().items() if name not in asked]
+    names = only_by_name(others, model.data.channels, tests, found.response)
+    return found.model_copy(update={"unknown": found.unknown.model_copy(update={"by_name": names})})
 
 
 def confirm_choice(store: Store, ref: str, candidate: str | int, response: str | None = None) -> tuple[Confirmed, bool]:

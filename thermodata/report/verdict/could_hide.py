@@ -19,8 +19,8 @@ MOSTLY = 0.9  # of it: an effect that does less does not hide it alone
 
 def could_hide(found: Diagnosis) -> str:
     """'these tests can't exclude guideway (C03_guide) up to 13.6 um, for feed_screw does 91 % of it; never moved in the
-    open tests: feed_Y (it moves in day2), ...'; '' where nothing is known of either."""
-    return "; ".join(filter(None, [_limits(found), _never_moved(found)]))
+    open tests: feed_Y (it moves in day2), ...; not asked for by itself ...'; '' where nothing is known of these."""
+    return "; ".join(filter(None, [_limits(found), _never_moved(found), _only_by_name(found)]))
 
 
 def could_be(found: Diagnosis) -> str:
@@ -50,6 +50,25 @@ def may_act_instead(found: Diagnosis, but: Collection[str] = ()) -> str:
         return ""
     asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks locked ones, where there are some"
     return f"{_name(hidden)}, which {hidden.behind} hides in these tests, may do that instead ({asks})"
+
+
+def _only_by_name(found: Diagnosis) -> str:
+    """'not asked for by itself, though all that drives it is logged: overhang (T_head, pos_z); thermodata confirm ...
+    asks locked tests of it'; '' where there is nothing of the kind."""
+    names = [] if found.unknown is None else found.unknown.by_name
+    if not names:
+        return ""
+    rest = [f"{len(names) - SHOWN} more"] if len(names) > SHOWN else []
+    told = listed([*(_by_channels(name) for name in names[:SHOWN]), *rest])
+    alone = len(names) == 1
+    itself, drives, them = ("itself", "it", "it") if alone else ("themselves", "them", "the first")
+    unasked = f"not asked for by {itself}, though all that drives {drives} is logged: {told}"
+    return f"{unasked}; thermodata confirm {found.model[:8]} {names[0]} asks locked tests of {them}"
+
+
+def _by_channels(name: str) -> str:
+    effect, _, channels = name.partition(":")
+    return f"{effect} ({channels.replace(',', ', ')})"
 
 
 def _never_moved(found: Diagnosis) -> str:

@@ -90,6 +90,7 @@ class Unknown(Result):
     heat: the missing heat, estimated; null where none is worth its changes
     not_logged: probability that no channel reads what is missing, 0 to 1; null in an answer of an older version, or
         where no candidate was weighed
+    by_name: ids of effects that diagnosis does not ask for by itself, though their channels are logged
     """
 
     time_constants_h: list[float]
@@ -97,3 +98,4 @@ class Unknown(Result):
     states: list[str]
     heat: MissingHeat | None = None
     not_logged: float | None = None
+    by_name: list[str] = []

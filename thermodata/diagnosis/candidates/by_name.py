@@ -1,0 +1,40 @@
+"""Effects that diagnosis does not ask for by itself, though the logs have all that drives them: few tests tell them
+from what it asks for, so the user names them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from thermodata.effect.binding import bindings, candidate_id
+from thermodata.plugin import Effect
+from thermodata.schema.units.quantity import NOT_DRIVERS
+from thermodata.view.grid.dataset import ChannelInfo, TestData
+
+ARTEFACT = "artefact"  # a family: what the logs have, and no machine does
+
+
+def only_by_name(
+    library: Iterable[Effect], channels: Mapping[str, ChannelInfo], tests: Sequence[TestData], response: str
+) -> list[str]:
+    """Ids of those of which every driver moves in one of the tests at least. library: effects that are not asked."""
+    usable = {
+        n: c
+        for n, c in channels.items()
+        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
+    }
+    moves = {n for n in usable if any(_moves(t, n) for t in tests)}
+    return [
+        candidate_id(one.name, binding)
+        for one in library
+        if one.needs and one.family != ARTEFACT
+        for binding in bindings(one, usable)
+        if moves.issuperset(binding.values())
+    ]
+
+
+def _moves(test: TestData, name: str) -> bool:
+    values = test.values.get(name)
+    seen = values[np.isfinite(values)] if values is not None else np.empty(0)
+    return len(seen) > 0 and float(np.ptp(seen)) > 0
