@@ -77,11 +77,23 @@ def test_one_lag_stays_one(both: Model) -> None:
     assert "none takes 20 % off" in refined.notes[0]
 
 
-def test_two_lags_that_lie_on_each_other_are_not_two(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_heat_that_passes_two_bodies_alike_gets_two_lags_that_are_kept_apart(both: Model) -> None:
+    """Where they would lie on each other their gains would be huge, and say nothing."""
     data = machine(two_alike)
+    refined = with_second_lags(both, data)
+    (found,) = refined.lags
+    assert max(found.tau) / min(found.tau) == pytest.approx(1.5, rel=0.1)
+    assert np.sqrt(np.prod(found.tau)) == pytest.approx(40.0, rel=0.05)
+    assert found.before > 1.0 > 0.25 > found.after, "the noise is 0.2"
+    gains = {n: p.value for n, p in fit_model(refined.spec, data).parameters().items() if n.endswith("gain")}
+    assert sum((gains["lag.gain"], gains["lag_lag2.gain"])) == pytest.approx(5.0, rel=0.1)
+    assert max(abs(gains["lag.gain"]), abs(gains["lag_lag2.gain"])) < 20.0
+
+
+def test_lags_that_are_kept_apart_must_be_worth_it_too(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
+    data = machine(two_alike)
+    monkeypatch.setattr(second_lag, "APART", 30.0)
     assert with_second_lags(both, data).lags == ()
-    monkeypatch.setattr(second_lag, "APART", 1.0)
-    assert [lag.of for lag in with_second_lags(both, data).lags] == ["lag"]
 
 
 def test_the_limit_stands_between_a_fall_that_suffices_and_one_that_does_not(

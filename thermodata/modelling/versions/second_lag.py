@@ -7,6 +7,7 @@ reads a model knows what it is. It is asked of the effect that was added, and of
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -131,13 +132,40 @@ def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: 
     share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
     if share > 1 - FALL or better < BETTER * len(errors.squares):
         return None
-    param, fitted = time_constant(spec.effects[place]), left_out.fitted(more)
+    param = time_constant(spec.effects[place])
     assert param is not None
-    tau = fitted.term(ids[place]).params[param.name], fitted.term(str(second.id)).params[param.name]
+    tau = _taus(left_out.fitted(more), ids[place], second, param)
     if max(tau) < APART * min(tau):
-        return None  # a lag and its derivative: two huge gains that take each other away
+        # a lag and its derivative: two huge gains that take each other away, as heat needs that passes two bodies
+        # alike; so far apart they do nearly the same with gains that say something
+        more = _parted(more, place, param, tau)
+        try:
+            errors = left_out.errors(more)
+        except UsageError:
+            return None
+        share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
+        if share > 1 - FALL or better < BETTER * len(errors.squares):
+            return None
+        tau = _taus(left_out.fitted(more), ids[place], second, param)
     figures = now.rmse(response.name), errors.rmse(response.name), response.unit, better, len(errors.squares)
     return _Trial(place, more, errors, share, SecondLag(ids[place], str(second.id), tau, param.unit, *figures))
+
+
+def _taus(fitted: FittedModel, first: str, second: EffectSpec, param: Param) -> tuple[float, float]:
+    return fitted.term(first).params[param.name], fitted.term(str(second.id)).params[param.name]
+
+
+def _parted(spec: Model, place: int, param: Param, tau: tuple[float, float]) -> Model:
+    """With both lags of an effect, the second of which is the last of the model, kept `APART` about the mean of what
+    they were fitted to."""
+    middle = math.sqrt(tau[0] * tau[1])
+    half = math.sqrt(APART)
+    effects = list(spec.effects)
+    for i, (lower, upper) in ((place, (None, middle / half)), (len(effects) - 1, (middle * half, None))):
+        own = effects[i].bounds.get(param.name, (param.lower, param.upper))
+        kept = (own[0] if lower is None else lower, own[1] if upper is None else upper)
+        effects[i] = effects[i].model_copy(update={"bounds": {**effects[i].bounds, param.name: kept}})
+    return spec.model_copy(update={"effects": effects})
 
 
 def is_lag_of(identity: str, of: str) -> bool:
