@@ -151,3 +151,22 @@ def test_drifts_are_drawn_from_their_first_valid_value_and_told_apart() -> None:
     assert len({(s.colour, s.dash) for s in shifted.series}) == 2
     assert absolute.title == "temperature"
     assert float(absolute.series[0].y[0]) == 20.0
+
+
+def test_what_ran_while_the_test_did_not_measure_does_not_count_and_is_no_fault(tests: list[TestQuality]) -> None:
+    """The share that the page tells is that of `valid(flag)`, as in the workbench's list of tests."""
+    resting = dataclasses.replace(trace("dZ", "displacement"), idle=1500)
+    saturated = {
+        "channel": "dZ",
+        "source": "daq",
+        "flag": "saturated",
+        "from_s": 0.0,
+        "to_s": 900.0,
+        "n": 900,
+        "detail": "only while not measuring",
+    }
+    idle = dataclasses.replace(tests[0], traces=(resting, trace("T_bed")), events=(saturated,))
+    assert headline([idle]) == "12 % of 12\u00a0k samples do not count: not measuring"
+    assert "12 % of 12\u00a0k samples do not count, all of them while not measuring" in render([idle])
+    both = dataclasses.replace(idle, traces=(resting, trace("T_column", bad=slice(30, 60))))
+    assert "38 % of 12\u00a0k samples do not count, 12 % while not measuring" in render([both])
