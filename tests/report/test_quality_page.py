@@ -153,6 +153,25 @@ def test_drifts_are_drawn_from_their_first_valid_value_and_told_apart() -> None:
     assert float(absolute.series[0].y[0]) == 20.0
 
 
+def test_a_channel_of_fewer_samples_than_bins_is_a_line_and_its_gap_is_none() -> None:
+    """A minute's log of a test of half an hour would be dots; a pause in it is a pause."""
+    bins = 480
+    at = np.array([i for i in range(0, bins, 16) if not 160 <= i < 320])
+    good = np.full(bins, np.nan)
+    good[at] = 20.0 + at / 100
+    none, flags = np.full(bins, np.nan), np.zeros(bins, np.uint16)
+    slow = Trace("T_air", "temperature", "degC", good, none, none, flags, len(at), 0, 0)
+    chart = draw_test(TestQuality("c", "day1", "spindle", 1800.0, 0.0, 1800.0 / bins, (slow,), (), ()))
+    (panel,) = (p for p in chart.panels if isinstance(p, Panel))
+    (series,) = panel.series
+    assert series.x is not None
+    assert np.isnan(series.y).sum() == 1
+    (gap,) = np.flatnonzero(np.isnan(series.y))
+    assert series.y[gap - 1] == pytest.approx(20.0 + 144 / 100)
+    assert series.y[gap + 1] == pytest.approx(20.0 + 320 / 100)
+    assert np.all(np.diff(series.x) >= 0)
+
+
 def test_what_ran_while_the_test_did_not_measure_does_not_count_and_is_no_fault(tests: list[TestQuality]) -> None:
     """The share that the page tells is that of `valid(flag)`, as in the workbench's list of tests."""
     resting = dataclasses.replace(trace("dZ", "displacement"), idle=1500)
