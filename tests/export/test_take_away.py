@@ -117,6 +117,7 @@ def test_an_mdf_tool_finds_what_describes_the_test(view: StoreView, tmp_path: Pa
     with asammdf.MDF(tmp_path / "x.mf4") as mdf:
         assert (mdf.header.project, mdf.header.subject) == ("c", "sp9000")
         assert "condition coolant: on" in mdf.header.comment
+        assert "condition speed: 9000 rpm" in mdf.header.comment
         signal = mdf.get("T_front", ignore_invalidation_bits=True)
         assert signal.unit == "degC"
         assert "at: spindle.bearing.front" in signal.comment
@@ -163,6 +164,7 @@ def test_excel_gets_numbers_and_dates_with_units_in_the_second_row(view: StoreVi
     assert [row[at] for row in (first, *rest)] == pytest.approx(grid["T_front"].to_pylist())
     about = book.get_sheet_by_name("about").to_python()
     assert ["test", "sp9000"] in [row[:2] for row in about]
+    assert ["speed", "9000 rpm"] in [row[:2] for row in about]
     assert "glued čidlo" in next(row for row in about if row[0] == "T_front")
 
 

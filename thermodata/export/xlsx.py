@@ -100,8 +100,8 @@ def _rows(content: Content, columns: Sequence[_Column]) -> Iterator[list[str]]:
 
 
 def _about(content: Content) -> Iterator[list[str]]:
-    for name, value in (*content.about.items(), ("step", content.step), *content.conditions.items()):
-        yield [_text(name), _cell(value)]
+    for name, value in (*content.about.items(), ("step", content.step), *content.written.items()):
+        yield [_text(name), _text(value)]
     yield [_text("flags"), _text(flag_bits())]
     yield []
     keys = list(dict.fromkeys(k for own in content.channels.values() for k in own))
