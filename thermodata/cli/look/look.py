@@ -127,7 +127,7 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
                 ("raw_unit", "raw unit"),
                 ("calibration", "calibration"),
             ],
-            widest=36,
+            widest=64,
         ),
     )
 
