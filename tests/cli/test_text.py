@@ -17,7 +17,7 @@ from thermodata.cli.terminal.json_text import json_text
 from thermodata.cli.terminal.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
 from thermodata.report.text.fit import check_text
-from thermodata.report.text.table import table
+from thermodata.report.text.table import sentences_folded, table
 from thermodata.report.words.numbers import change, duration, number, typeset
 from thermodata.schema.answers.result import Check
 
@@ -271,3 +271,23 @@ def test_latex_has_no_character_that_is_a_command_or_another_sign() -> None:
     body = text.replace(r"\_", "").replace(r"\&", "").replace(r"\%", "").replace(r"\$", "").replace(" & ", " ")
     assert not set("_%$|<>&") & set(body)
     assert r"\textbar{}max\textbar{} [um]" in text
+
+
+def test_sentences_are_folded_between_words_and_rows_of_tables_stay_whole() -> None:
+    text = "\n".join(
+        [
+            "the open tests show no missing cause",
+            "",
+            "  ! at_bound: the time constant stands at its bound",
+            "test  RMSE [um]  state of the machine then",
+        ]
+    )
+    assert sentences_folded(text, 24).split("\n") == [
+        "the open tests show no",
+        "  missing cause",
+        "",
+        "  ! at_bound: the time",
+        "    constant stands at",
+        "    its bound",
+        "test  RMSE [um]  state of the machine then",
+    ]

@@ -104,6 +104,18 @@ def prose(text: str, width: int | None = None) -> str:
     return "\n".join(told)
 
 
+def sentences_folded(text: str, width: int | None = None) -> str:
+    """`prose` of the lines that are sentences, put in as they are; rows of tables, whose columns two spaces part, stay
+    whole."""
+    room = screen_width() if width is None else width
+    told = list[str]()
+    for line in text.split("\n"):
+        body = line.strip()
+        put_in = line[: len(line) - len(line.lstrip())]
+        told += [line] if "  " in body else [put_in + x for x in prose(body, room - len(put_in)).split("\n")]
+    return "\n".join(told)
+
+
 @dataclass(frozen=True)
 class _Column:
     heading: str
