@@ -69,6 +69,8 @@ def test_the_page_tells_the_share_the_reason_and_the_loss(tests: list[TestQualit
     assert "raw/day2.tdms, byte 7: cut" in body
     assert "a step of +30.0 K" in body
     assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body)
+    assert "all of 12\u00a0k samples count" in body
+    assert "none of" not in body
     assert headline(tests[:1]) == "All of 12\u00a0k samples in 1 test count"
 
 
