@@ -75,6 +75,12 @@ def specs() -> dict[str, dict[str, Any]]:
     empty = Chart(
         "Empty", Axis("time", "h"), np.empty(0), [Panel("dZ", "um", [Series("dZ", "um", np.empty(0), "model")])]
     )
+    short = Chart(
+        "Five minutes",
+        Axis("time", "h", range=(0.0, 300 / 3600)),
+        np.arange(301) / 3600,
+        [Panel("dZ", "um", [Series("dZ", "um", np.arange(301.0), "measured")])],
+    )
     values = np.vstack([8 * np.ones(50), np.full(50, np.nan)])
     heat = HeatMap("Where", Axis("time", "h"), "um", ["a", "b"], values, [50, 30], 0.0, 0.2, 16.0, targets=["one", ""])
     return {
@@ -83,6 +89,7 @@ def specs() -> dict[str, dict[str, Any]]:
         "log": log.as_json(),
         "dated": dated.as_json(),
         "empty": empty.as_json(),
+        "short": short.as_json(),
         "heat": heat.as_json(),
     }
 
@@ -140,7 +147,7 @@ def shown(tab: Page, chart: str = ONE) -> list[float]:
 
 
 def test_each_kind_is_drawn(tab: Page) -> None:
-    assert tab.js("document.querySelectorAll('.uplot').length") == 3 + 4
+    assert tab.js("document.querySelectorAll('.uplot').length") == 3 + 5
     inked = (
         "[...document.querySelectorAll('canvas')].map(c => c.width && c.height && "
         "c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some(v => v))"
@@ -165,6 +172,21 @@ def test_the_cursor_says_values_with_units_holes_and_reasons(tab: Page) -> None:
     tab.js(f"{ONE}.point(1.5)")
     assert "T_front: held" in tab.js("document.querySelector('[data-chart=one]').innerText")
     assert tab.js(f"{TWO}.at") == 1.5, "charts of one group share the cursor"
+
+
+def test_a_test_of_minutes_is_told_in_minutes(tab: Page) -> None:
+    short = CHART.format("short")
+    axis = f"{short}.panels[0].plot.axes[0]"
+    assert tab.js(f"{axis}.label") == "time [min]"
+    assert tab.js(f"{axis}._values") == [str(round(x / 2, 1)).removesuffix(".0") for x in range(11)]
+    tab.js(f"{short}.point(100 / 3600)")
+    assert "1.667\u00a0min (0:01:40)" in tab.js("document.querySelector('[data-chart=short] .tc-at').innerText")
+    tab.js(f"{short}.zoom(60 / 3600, 120 / 3600)")
+    assert shown(tab, short) == pytest.approx([60 / 3600, 120 / 3600]), "places stay in hours"
+    tab.js(f"{short}.point(null)")
+    told = tab.js("document.querySelector('[data-chart=short] .tc-at').innerText")
+    assert told == "1.000 … 2.000\u00a0min of 5.000\u00a0min"
+    assert tab.js(f"{CHART.format('one')}.panels.at(-1).plot.axes[0].label").endswith("[h]")
 
 
 def test_a_gap_of_the_data_is_a_gap_of_the_line_and_a_hole_of_the_join_is_none(tab: Page) -> None:

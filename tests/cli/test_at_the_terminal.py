@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 from collections.abc import Callable
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -82,6 +83,17 @@ def test_without_a_model_the_newest_is_taken(fitted: Path, say: Callable[..., Sa
     assert len(models) == 2
     assert (found[-1] if words == ["history"] else found)["model"] == models[-1]
     assert models[-1] in say("--store", store, *words).err
+
+
+def test_a_list_of_models_names_all_effects() -> None:
+    from thermodata.cli.model.models import _text
+
+    effects = ["ambient_frame", "centrifugal_shift", "probe_temperature", "tool_elongation", "feed_motor"]
+    row = {"model": "m1", "name": "baseline", "version": 1, "parent": None, "effects": effects, "campaigns": ["c"]}
+    more = {"responses": ["dZ"], "created_at": datetime(2026, 3, 1, tzinfo=UTC), "stale": False, "fitted_last": True}
+    text = _text([{**row, **more}])
+    assert "…" not in text
+    assert all(effect in text for effect in effects)
 
 
 def test_models_are_listed_with_the_one_that_is_taken_where_none_is_named(

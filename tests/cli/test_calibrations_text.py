@@ -47,6 +47,7 @@ def test_offsets_and_the_share_of_the_moves_are_told(
         assert "offset" in text
         assert "-0.12" in text
         assert ("± of jump: mostly move_uncertainty, 1 um a move" in text) == (mostly is not None)
+        assert "passed" in text, "of a check nobody asks yes or no"
     rows = {c["calibration"]: c for c in json.loads(say("--store", store, "calibrations", "--json").out)}
     assert rows["jump"]["move_uncertainty_um"] == (mostly or 0.001)
     assert rows["ice"]["move_uncertainty_um"] is None

@@ -80,6 +80,8 @@ def test_every_command_is_documented(name: str, command: click.Command) -> None:
     for parameter in command.params:
         if isinstance(parameter, click.Option):
             assert parameter.help, f"{name} {parameter.opts}: an option without help"
+            shown = parameter.make_metavar(click.Context(command))
+            assert shown not in ("TEXT", "FLOAT"), f"{name} {parameter.opts}: say what of, as CAMPAIGN, TIME, UM"
 
 
 @pytest.mark.parametrize(("name", "command"), commands())
@@ -286,6 +288,9 @@ def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp
     assert "no test 'heat9'" in say(*words, "heat1", "heat9", out, "--force").err
     assert say(*words, "heat1", "heat1", tmp_path / "once.csv").code == 0, "named twice it is one test"
     assert "try: thermodata export small heat1 heat1.csv" in say(*words, "heat1").err
+    told = say(*words, "heat1", tmp_path / "two.csv").out
+    assert re.search(r"^columns  campaign, test, time_utc, t_s \[s\], ", told, re.M), "each column once, with its unit"
+    assert "units " not in told
 
 
 def test_quality_tells_what_a_diagnosis_told_of_the_logs_and_no_flag_does(

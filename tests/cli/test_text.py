@@ -17,7 +17,7 @@ from thermodata.cli.terminal.json_text import json_text
 from thermodata.cli.terminal.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
 from thermodata.report.text.fit import check_text
-from thermodata.report.text.table import table
+from thermodata.report.text.table import sentences_folded, table
 from thermodata.report.words.numbers import change, duration, number, typeset
 from thermodata.schema.answers.result import Check
 
@@ -83,8 +83,13 @@ def test_a_table_aligns_numbers_right_and_texts_left() -> None:
 
 
 def test_a_table_cuts_long_texts_and_keeps_one_line_a_row() -> None:
-    lines = table([{"a": "x" * 100, "b": "two\nlines"}], [("a", "a"), ("b", "b")], widest=10).splitlines()
-    assert lines[-1] == "xxxxxxxxx…  two lines"
+    lines = table([{"a": "x y " * 25, "b": "two\nlines"}], [("a", "a"), ("b", "b")], widest=10).splitlines()
+    assert lines[-1] == "x y x y x…  two lines"
+
+
+def test_a_table_cuts_names_in_their_middle() -> None:
+    rows = [{"a": f"temperature_of_the_bearing_no_{i}"} for i in range(2)]
+    assert table(rows, [("a", "a")], widest=15).splitlines()[-2:] == ["tempera…ng_no_0", "tempera…ng_no_1"]
 
 
 def test_json_knows_no_nan_and_takes_anything() -> None:
@@ -121,12 +126,52 @@ def test_a_table_is_folded_to_the_screen_and_says_once_what_all_rows_share() -> 
     ]
 
 
+def test_a_single_row_says_above_what_it_stands_in() -> None:
+    assert table(WIDE[:1], HEADS, width=60).splitlines() == [
+        "campaign gantry-2026-03",
+        "",
+        "test    role                      FIT [%]  PTP left [um]",
+        "──────  ────────────────────────  ───────  ─────────────",
+        "sp9000  verification (in-sample)     90.1           5.00",
+    ]
+
+
 def test_numbers_are_never_folded_and_columns_without_room_stand_below() -> None:
     text = table(WIDE, HEADS, width=30)
     first, second = text.split("\n\n")[1:]
     assert [line.split()[-1] for line in first.splitlines() if line[:2] == "sp"] == ["90.1", "-3.25"]
     assert [line.split()[-1] for line in second.splitlines() if line[:2] == "sp"] == ["5.00", "12.5"]
     assert max(map(len, text.splitlines())) <= 30
+
+
+def test_a_range_and_a_number_with_its_unit_stay_in_one_line() -> None:
+    rows = [
+        {"parameter": f"displacement_of_the_tool_{axis}/bearing.tau", "95 %": f"0.{k}95 … 0.442", "p": f"over 9{k} %"}
+        for k, axis in enumerate("XY", 3)
+    ]
+    lines = table(rows, [(key, key) for key in ("parameter", "95 %", "p")], width=48).splitlines()
+    assert lines[2:4] == [
+        "displacement_of_the_tool_X/  0.395 … 0.442  over",
+        "bearing.tau                                 93 %",
+    ]
+
+
+def test_rows_that_share_their_first_column_stand_under_it_where_nothing_else_tells_them_apart() -> None:
+    rows = [
+        {"campaign": campaign, "test": f"warm_up_no_{i}_in_the_hall", "kind": f"spindle-{i}", "role": "calibration"}
+        for campaign in ("gantry-in-march-of-2026", "lathe-in-march-of-2026")
+        for i in range(2)
+    ]
+    text = table(rows, [(key, key) for key in ("campaign", "test", "kind", "role")], width=44)
+    parts = text.split("\n\n")
+    assert [part.splitlines()[0].split() for part in parts] == [
+        ["role", "calibration"],
+        ["campaign", "gantry-in-march-of-2026"],
+        ["test", "kind"],
+        ["campaign", "lathe-in-march-of-2026"],
+        ["test", "kind"],
+    ]
+    assert parts[2].splitlines()[2] == "warm_up_no_0_in_the_hall  spindle-0"
 
 
 @pytest.mark.parametrize("version", [1, "first"])
@@ -226,3 +271,23 @@ def test_latex_has_no_character_that_is_a_command_or_another_sign() -> None:
     body = text.replace(r"\_", "").replace(r"\&", "").replace(r"\%", "").replace(r"\$", "").replace(" & ", " ")
     assert not set("_%$|<>&") & set(body)
     assert r"\textbar{}max\textbar{} [um]" in text
+
+
+def test_sentences_are_folded_between_words_and_rows_of_tables_stay_whole() -> None:
+    text = "\n".join(
+        [
+            "the open tests show no missing cause",
+            "",
+            "  ! at_bound: the time constant stands at its bound",
+            "test  RMSE [um]  state of the machine then",
+        ]
+    )
+    assert sentences_folded(text, 24).split("\n") == [
+        "the open tests show no",
+        "  missing cause",
+        "",
+        "  ! at_bound: the time",
+        "    constant stands at",
+        "    its bound",
+        "test  RMSE [um]  state of the machine then",
+    ]

@@ -117,6 +117,7 @@ def test_an_mdf_tool_finds_what_describes_the_test(view: StoreView, tmp_path: Pa
     with asammdf.MDF(tmp_path / "x.mf4") as mdf:
         assert (mdf.header.project, mdf.header.subject) == ("c", "sp9000")
         assert "condition coolant: on" in mdf.header.comment
+        assert "condition speed: 9000 rpm" in mdf.header.comment
         signal = mdf.get("T_front", ignore_invalidation_bits=True)
         assert signal.unit == "degC"
         assert "at: spindle.bearing.front" in signal.comment
@@ -163,7 +164,29 @@ def test_excel_gets_numbers_and_dates_with_units_in_the_second_row(view: StoreVi
     assert [row[at] for row in (first, *rest)] == pytest.approx(grid["T_front"].to_pylist())
     about = book.get_sheet_by_name("about").to_python()
     assert ["test", "sp9000"] in [row[:2] for row in about]
+    assert ["speed", "9000 rpm"] in [row[:2] for row in about]
     assert "glued čidlo" in next(row for row in about if row[0] == "T_front")
+
+
+def test_excel_has_room_for_times_and_names_and_keeps_them_in_sight(view: StoreView, tmp_path: Path) -> None:
+    """Without widths a time is shown as '####', and a library warns of a workbook without a style."""
+    import zipfile
+    from xml.etree import ElementTree
+
+    export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="10 s")
+    main = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+    with zipfile.ZipFile(tmp_path / "x.xlsx") as book:
+        sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet1.xml"))
+        styles = ElementTree.fromstring(book.read("xl/styles.xml"))
+    assert [child.tag.removeprefix(main) for child in sheet] == ["sheetViews", "cols", "sheetData"], "in Excel's order"
+    names = ["".join(c.itertext()) for c in sheet.find(f"{main}sheetData")[0]]  # type: ignore[index]
+    wide = [float(c.get("width", "0")) for c in sheet.find(f"{main}cols") or ()]
+    assert len(wide) == len(names)
+    assert wide[0] >= len("2026-03-01 08:00:00.123")
+    assert all(w > len(n) for w, n in zip(wide, names, strict=True))
+    pane = next(sheet.iter(f"{main}pane"))
+    assert (pane.get("xSplit"), pane.get("ySplit"), pane.get("topLeftCell")) == ("2", "2", "C3")
+    assert next(styles.iter(f"{main}cellStyle")).get("name") == "Normal"
 
 
 def test_as_logged_excel_has_a_sheet_a_source_and_the_answer_the_rows_of_each(view: StoreView, tmp_path: Path) -> None:

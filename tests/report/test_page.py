@@ -190,6 +190,19 @@ def test_further_rows_are_not_said_to_explain_less(data: ReportData) -> None:
     assert "explain less" not in page
 
 
+@pytest.mark.parametrize(("twins", "folded"), [(4, False), (5, True)])
+def test_many_that_it_cannot_be_told_from_are_folded_and_all_of_them_there(
+    twins: int, folded: bool, data: ReportData
+) -> None:
+    reason = diagnosis()
+    row = reason.candidates[0].model_copy(update={"equivalent": [f"lag:T_{i}" for i in range(twins)]})
+    page = body(render(dataclasses.replace(data, reason=reason.model_copy(update={"candidates": [row]}))))
+    cell = page[page.index('class="ids"') :]
+    cell = cell[: cell.index("</td>")]
+    assert cell.count("lag:<wbr>T_") == twins
+    assert (f"and {twins - 3} more</summary>lag:<wbr>T_3" in cell) is folded
+
+
 def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: ReportData) -> None:
     left = {what: note for what, _, note in what_is_left(data)}
     assert "between neighbouring means of 30 s" in left["noise"]

@@ -69,6 +69,8 @@ def test_the_page_tells_the_share_the_reason_and_the_loss(tests: list[TestQualit
     assert "raw/day2.tdms, byte 7: cut" in body
     assert "a step of +30.0 K" in body
     assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body)
+    assert "all of 12\u00a0k samples count" in body
+    assert "none of" not in body
     assert headline(tests[:1]) == "All of 12\u00a0k samples in 1 test count"
 
 
@@ -151,3 +153,41 @@ def test_drifts_are_drawn_from_their_first_valid_value_and_told_apart() -> None:
     assert len({(s.colour, s.dash) for s in shifted.series}) == 2
     assert absolute.title == "temperature"
     assert float(absolute.series[0].y[0]) == 20.0
+
+
+def test_a_channel_of_fewer_samples_than_bins_is_a_line_and_its_gap_is_none() -> None:
+    """A minute's log of a test of half an hour would be dots; a pause in it is a pause."""
+    bins = 480
+    at = np.array([i for i in range(0, bins, 16) if not 160 <= i < 320])
+    good = np.full(bins, np.nan)
+    good[at] = 20.0 + at / 100
+    none, flags = np.full(bins, np.nan), np.zeros(bins, np.uint16)
+    slow = Trace("T_air", "temperature", "degC", good, none, none, flags, len(at), 0, 0)
+    chart = draw_test(TestQuality("c", "day1", "spindle", 1800.0, 0.0, 1800.0 / bins, (slow,), (), ()))
+    (panel,) = (p for p in chart.panels if isinstance(p, Panel))
+    (series,) = panel.series
+    assert series.x is not None
+    assert np.isnan(series.y).sum() == 1
+    (gap,) = np.flatnonzero(np.isnan(series.y))
+    assert series.y[gap - 1] == pytest.approx(20.0 + 144 / 100)
+    assert series.y[gap + 1] == pytest.approx(20.0 + 320 / 100)
+    assert np.all(np.diff(series.x) >= 0)
+
+
+def test_what_ran_while_the_test_did_not_measure_does_not_count_and_is_no_fault(tests: list[TestQuality]) -> None:
+    """The share that the page tells is that of `valid(flag)`, as in the workbench's list of tests."""
+    resting = dataclasses.replace(trace("dZ", "displacement"), idle=1500)
+    saturated = {
+        "channel": "dZ",
+        "source": "daq",
+        "flag": "saturated",
+        "from_s": 0.0,
+        "to_s": 900.0,
+        "n": 900,
+        "detail": "only while not measuring",
+    }
+    idle = dataclasses.replace(tests[0], traces=(resting, trace("T_bed")), events=(saturated,))
+    assert headline([idle]) == "12 % of 12\u00a0k samples do not count: not measuring"
+    assert "12 % of 12\u00a0k samples do not count, all of them while not measuring" in render([idle])
+    both = dataclasses.replace(idle, traces=(resting, trace("T_column", bad=slice(30, 60))))
+    assert "38 % of 12\u00a0k samples do not count, 12 % while not measuring" in render([both])

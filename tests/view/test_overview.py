@@ -113,6 +113,13 @@ def test_strips_show_the_residual_where_it_is_and_nothing_where_nothing_was_meas
     assert np.isnan(strip[8:]).all()
 
 
+def test_a_strip_of_more_stretches_than_samples_has_each_sample_until_half_way_to_the_next(store: Store) -> None:
+    samples = len(T_S)
+    strip = residual_strips(store, "m1", [("lab", "heat1")], bins=3 * samples)["lab", "heat1"]
+    assert strip[: int(1.4 * samples)] == pytest.approx(np.full(int(1.4 * samples), 2.0)), "measured, so never hatched"
+    assert np.isnan(strip[int(2.4 * samples) :]).all(), "what does not count stays hatched"
+
+
 def test_a_prediction_is_as_it_was_stored(store: Store) -> None:
     (found,) = predictions(store, "m1", "lab", "heat1")
     assert list(found.contributions) == ["lag"]

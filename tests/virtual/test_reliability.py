@@ -59,3 +59,12 @@ def test_the_diagram_is_whole_and_its_points_stand_where_they_should() -> None:
     assert float(points[0].attrib["cy"]) > float(points[1].attrib["cy"])
     assert float(points[0].attrib["cx"]) < float(points[1].attrib["cx"])
     assert "9 machines & <more>" in [t.text for t in picture.iter(f"{spot}text")]
+
+
+def test_a_long_title_stays_in_the_picture() -> None:
+    title = "3000 machines, sealed seeds 200631 to 200680, 200683 to 200782"
+    picture = ElementTree.fromstring(diagram(reliability(trials([(0.75, True)])), title))
+    lines = [t for t in picture.iter("{http://www.w3.org/2000/svg}text") if t.attrib["font-size"] == "13"]
+    assert " ".join(t.text or "" for t in lines) == title
+    assert len({t.attrib["y"] for t in lines}) == 2
+    assert all(float(t.attrib["x"]) + 7.5 * len(t.text or "") < float(picture.attrib["width"]) for t in lines)

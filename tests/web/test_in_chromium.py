@@ -146,6 +146,16 @@ def test_long_names_leave_the_error_and_the_residual_in_sight(read: Served) -> N
         assert read.page.js("(t => t.scrollWidth <= t.clientWidth)(document.querySelector('#tests > .scroll'))")
 
 
+def test_long_names_of_views_stay_in_their_panel(read: Served) -> None:
+    read.page.look(1400, 900)
+    read.page.go(read.origin + "/sql")
+    read.page.js(
+        "(s => { s.textContent = 'wide_' + 'a_campaign_with_a_long_name_'.repeat(3); })"
+        "(document.querySelector('.views summary'))"
+    )
+    assert read.page.js("(v => v.scrollWidth <= v.clientWidth)(document.querySelector('.views'))")
+
+
 def test_the_keys_of_a_chart_are_as_low_as_their_text(read: Served) -> None:
     """Rows of many keys stood two lines apart: the page's buttons are higher."""
     read.go("/test?campaign=small&test=heat1")

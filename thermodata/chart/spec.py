@@ -25,7 +25,7 @@ _VERSION = 1
 @dataclass(frozen=True, slots=True)
 class Axis:
     """What runs along x. range: what is shown at first (of all values where None). time: x is seconds since 1970 UTC,
-    and ticks are dates."""
+    and ticks are dates. Hours of which there is less than one are read as minutes."""
 
     label: str
     unit: str

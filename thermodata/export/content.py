@@ -47,13 +47,15 @@ class Stream:
 
 @dataclass(frozen=True)
 class Content:
-    """One test. about: of the test, as text; channels: channel -> what is known of it, as text; start_ns: UTC of
-    t_s == 0, None where no clock was absolute."""
+    """One test. about: of the test, as text; conditions: numbers in the canonical units; written: the same as the
+    campaign file has them, with units; channels: channel -> what is known of it, as text; start_ns: UTC of t_s == 0,
+    None where no clock was absolute."""
 
     campaign: str
     test: str
     about: Mapping[str, str]
     conditions: Mapping[str, float | str]
+    written: Mapping[str, str]
     channels: Mapping[str, Mapping[str, str]]
     start_ns: int | None
     step: str
@@ -115,6 +117,7 @@ def read_content(view: StoreView, campaign: str, test: str, step: str) -> Conten
         test,
         {k: str(v) for k, v in about.items() if v not in (None, "")},
         _plain(conditions),
+        _written(view, campaign, test),
         channels,
         int(start_ns) if absolute else None,
         step,
@@ -128,6 +131,16 @@ def _plain(conditions: Any) -> dict[str, float | str]:
         str(k): float(v) if isinstance(v, int | float) else v if isinstance(v, str) else json.dumps(v)
         for k, v in given.items()
     }
+
+
+def _written(view: StoreView, campaign: str, test: str) -> dict[str, str]:
+    rows = view.sql(
+        "select t.value->'$.conditions' from campaign c, json_each(c.spec, '$.tests') t "
+        "where c.campaign = ? and t.value->>'$.id' = ?",
+        [campaign, test],
+    ).fetchall()
+    given = json.loads(rows[0][0] or "{}") if rows else {}
+    return {str(k): v if isinstance(v, str) else json.dumps(v) for k, v in (given or {}).items()}
 
 
 def _binned(view: StoreView, campaign: str, test: str, step: str, channels: Collection[str]) -> Stream:

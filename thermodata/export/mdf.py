@@ -42,7 +42,7 @@ def write_mdf(content: Content, path: Path) -> None:
 
 def _comment(content: Content) -> str:
     lines = [f"{k}: {v}" for k, v in content.about.items()]
-    lines += [f"condition {k}: {v}" for k, v in content.conditions.items()]
+    lines += [f"condition {k}: {v}" for k, v in content.written.items()]
     return "\n".join([*lines, f"flags: {flag_bits()}"])
 
 

@@ -22,6 +22,8 @@ from thermodata.schema.agreed.exported import TIME_UTC
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384  # of a sheet
 _NAME = 31  # characters of a sheet's name
+_TIME_WIDE, _NARROWEST, _WIDEST = 24, 9, 44  # characters of a column: a time that has no room is shown as '####'
+_HEADING = 2  # style of names and units
 _HEAD = 2  # rows: names, units
 _EPOCH_DAYS = 25_569  # from Excel's day 0, 1899-12-30, to 1970-01-01
 _NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
@@ -29,47 +31,54 @@ _MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 _REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 _TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+_Column = tuple[str, str, Any]  # name, unit, values
 _XML = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
 _STYLES = (
     f'{_XML}<styleSheet xmlns="{_MAIN}"><numFmts count="1"><numFmt numFmtId="164" '
     'formatCode="yyyy\\-mm\\-dd\\ hh:mm:ss.000"/></numFmts>'
-    '<fonts count="1"><font><sz val="11"/><name val="Calibri"/></font></fonts>'
+    '<fonts count="2"><font><sz val="11"/><name val="Calibri"/></font>'
+    '<font><b/><sz val="11"/><name val="Calibri"/></font></fonts>'
     '<fills count="2"><fill><patternFill patternType="none"/></fill><fill><patternFill patternType="gray125"/></fill>'
     '</fills><borders count="1"><border><left/><right/><top/><bottom/><diagonal/></border></borders>'
-    '<cellStyleXfs count="1"><xf numFmtId="0" fontId="0" fillId="0" borderId="0"/></cellStyleXfs><cellXfs count="2">'
+    '<cellStyleXfs count="1"><xf numFmtId="0" fontId="0" fillId="0" borderId="0"/></cellStyleXfs><cellXfs count="3">'
     '<xf numFmtId="0" fontId="0" fillId="0" borderId="0" xfId="0"/>'
-    '<xf numFmtId="164" fontId="0" fillId="0" borderId="0" xfId="0" applyNumberFormat="1"/></cellXfs></styleSheet>'
+    '<xf numFmtId="164" fontId="0" fillId="0" borderId="0" xfId="0" applyNumberFormat="1"/>'
+    '<xf numFmtId="0" fontId="1" fillId="0" borderId="0" xfId="0" applyFont="1"/></cellXfs>'
+    '<cellStyles count="1"><cellStyle name="Normal" xfId="0" builtinId="0"/></cellStyles></styleSheet>'
 )
 
 
 def write_xlsx(content: Content, path: Path) -> None:
     """UsageError where a stream does not fit into a sheet."""
     *names, about = _sheet_names([*(s.name for s in content.streams), "about"])
-    sheets = [(name, _rows(content, s)) for name, s in zip(names, content.streams, strict=True)]
+    sheets = []
+    for name, s in zip(names, content.streams, strict=True):
+        columns = _columns(content, s)
+        sheets.append((name, _head(content, [c for c, _, _ in columns]), _rows(content, columns)))
     for stream in content.streams:
-        columns = 2 + len(stream.values) + len(stream.flags)
-        if stream.t_s.size + _HEAD > MOST_ROWS or columns > MOST_COLUMNS:
+        wide = 2 + len(stream.values) + len(stream.flags)
+        if stream.t_s.size + _HEAD > MOST_ROWS or wide > MOST_COLUMNS:
             raise UsageError(
                 "the test does not fit into a sheet of Excel",
                 where=f"{content.campaign}/{content.test}, {stream.name}",
                 expected=f"at most {MOST_ROWS - _HEAD} rows and {MOST_COLUMNS} columns",
-                got=f"{stream.t_s.size} rows, {columns} columns",
+                got=f"{stream.t_s.size} rows, {wide} columns",
                 hint="a longer --step, or --format mat",
             )
-    sheets.append((about, _about(content)))
+    sheets.append((about, _widths([max(_wide(name) for name in ("duration_s", *content.channels))]), _about(content)))
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
-        for name, text in _parts([name for name, _ in sheets]).items():
+        for name, text in _parts([name for name, _, _ in sheets]).items():
             file.writestr(name, text)
-        for n, (_, rows) in enumerate(sheets, 1):
+        for n, (_, head, rows) in enumerate(sheets, 1):
             with file.open(f"xl/worksheets/sheet{n}.xml", "w", force_zip64=True) as sheet:
-                sheet.write(f'{_XML}<worksheet xmlns="{_MAIN}">{_frozen(n < len(sheets))}<sheetData>'.encode())
+                sheet.write(f'{_XML}<worksheet xmlns="{_MAIN}">{head}<sheetData>'.encode())
                 for row in rows:
                     sheet.write(f"<row>{''.join(row)}</row>".encode())
                 sheet.write(b"</sheetData></worksheet>")
 
 
-def _rows(content: Content, stream: Stream) -> Iterator[list[str]]:
-    columns: list[tuple[str, str, Any]] = []
+def _columns(content: Content, stream: Stream) -> list[_Column]:
+    columns: list[_Column] = []
     if content.start_ns is not None:
         days = (content.start_ns / 1e9 + stream.t_s) / 86_400.0 + _EPOCH_DAYS
         columns.append((TIME_UTC, "UTC", days))
@@ -78,8 +87,12 @@ def _rows(content: Content, stream: Stream) -> Iterator[list[str]]:
         columns.append((name, content.unit(name), values))
         if name in stream.flags:
             columns.append((f"{name}.flag", "", stream.flags[name]))
-    yield [_text(name) for name, _, _ in columns]
-    yield [_text(unit) for _, unit, _ in columns]
+    return columns
+
+
+def _rows(content: Content, columns: Sequence[_Column]) -> Iterator[list[str]]:
+    yield [_text(name, _HEADING) for name, _, _ in columns]
+    yield [_text(unit, _HEADING) for _, unit, _ in columns]
     dated = content.start_ns is not None
     lists = [values.tolist() for _, _, values in columns]
     for row in zip(*lists, strict=True):
@@ -87,8 +100,8 @@ def _rows(content: Content, stream: Stream) -> Iterator[list[str]]:
 
 
 def _about(content: Content) -> Iterator[list[str]]:
-    for name, value in (*content.about.items(), ("step", content.step), *content.conditions.items()):
-        yield [_text(name), _cell(value)]
+    for name, value in (*content.about.items(), ("step", content.step), *content.written.items()):
+        yield [_text(name), _text(value)]
     yield [_text("flags"), _text(flag_bits())]
     yield []
     keys = list(dict.fromkeys(k for own in content.channels.values() for k in own))
@@ -106,18 +119,30 @@ def _cell(value: Any, is_time: bool = False) -> str:
     return f"<c{style}><v>{value!r}</v></c>"
 
 
-def _text(value: str) -> str:
+def _text(value: str, style: int = 0) -> str:
     if not value:
         return "<c/>"
-    return f'<c t="inlineStr"><is><t xml:space="preserve">{escape(_NO_XML.sub("", value))}</t></is></c>'
+    look = f' s="{style}"' if style else ""
+    return f'<c{look} t="inlineStr"><is><t xml:space="preserve">{escape(_NO_XML.sub("", value))}</t></is></c>'
 
 
-def _frozen(is_table: bool) -> str:
-    """Names and units stay in sight."""
-    if not is_table:
-        return ""
-    pane = f'<pane ySplit="{_HEAD}" topLeftCell="A{_HEAD + 1}" activePane="bottomLeft" state="frozen"/>'
-    return f'<sheetViews><sheetView workbookViewId="0">{pane}</sheetView></sheetViews>'
+def _head(content: Content, names: Sequence[str]) -> str:
+    """Names and units stay in sight, and so do times; each column is as wide as its name."""
+    times = 1 if content.start_ns is None else 2
+    corner = f"{'ABC'[times]}{_HEAD + 1}"
+    pane = f'<pane xSplit="{times}" ySplit="{_HEAD}" topLeftCell="{corner}" activePane="bottomRight" state="frozen"/>'
+    view = f'<sheetViews><sheetView workbookViewId="0">{pane}</sheetView></sheetViews>'
+    return view + _widths([_TIME_WIDE if name == TIME_UTC else _wide(name) for name in names])
+
+
+def _wide(name: str) -> int:
+    return min(max(len(name) + 2, _NARROWEST), _WIDEST)
+
+
+def _widths(wide: Sequence[int]) -> str:
+    """Of the first columns [characters]."""
+    each = (f'<col min="{n}" max="{n}" width="{w}" customWidth="1"/>' for n, w in enumerate(wide, 1))
+    return f"<cols>{''.join(each)}</cols>"
 
 
 def _sheet_names(names: Sequence[str]) -> list[str]:

@@ -33,6 +33,7 @@
       const xs = this.panels.map(p => p.data[0]).filter(d => d.length);
       this.full = this.axis.range || [Math.min(...xs.map(d => d[0])), Math.max(...xs.map(d => d[d.length - 1]))];
       if (!xs.length && !this.axis.range) this.full = [0, 1];
+      this.axis = T.told(this.axis, this.full);
     }
 
     // ---- the page's elements
@@ -142,10 +143,12 @@
         tzDate: ts => uPlot.tzDate(new Date(ts * 1e3), "Etc/UTC"),
         axes: [
           {show: true, size: p.last ? TICKS : 0, font: font, stroke: p.last ? ink : "transparent", gap: 4, labelFont: font, labelSize: LABEL, labelGap: 0,
-            splits: this.axis.scale === "log" ? (u, i, a, b) => T.decades(a, b) : undefined,
-            label: p.last ? this.axis.label + (this.axis.unit && !this.axis.time ? " [" + T.unit(this.axis.unit) + "]" : "") : undefined,
+            splits: this.axis.scale === "log" ? (u, i, a, b) => T.decades(a, b)
+              : this.axis.times ? (u, i, a, b) => T.even(a, b, this.axis.times, u.bbox.width / devicePixelRatio / 60) : undefined,
+            label: p.last ? this.axis.label + (this.axis.unit && !this.axis.time ? " [" + T.unit(this.axis.shown || this.axis.unit) + "]" : "") : undefined,
             grid: {stroke: grid, width: 1}, ticks: {show: p.last, stroke: grid, size: 4},
-            values: !p.last ? (u, splits) => splits.map(() => null) : this.axis.time ? undefined : (u, splits) => splits.map(T.tick)},
+            values: !p.last ? (u, splits) => splits.map(() => null) : this.axis.time ? undefined
+              : (u, splits) => splits.map(v => T.tick(+(v * (this.axis.times || 1)).toPrecision(6)))},
           {show: true, size: size, font: font, stroke: ink, gap: 4, space: 28, grid: {show: !p.strip && !p.rows, stroke: grid, width: 1},
             ticks: {show: !p.strip && !p.rows, stroke: grid, size: 4},
             values: p.strip || p.rows ? (u, splits) => splits.map(() => null)
@@ -273,7 +276,7 @@
 
     _window() {
       return this.lo === this.full[0] && this.hi === this.full[1] ? "" :
-        T.number(this.lo) + " … " + T.withunit(this.hi, this.axis.unit) + " of " + T.withunit(this.full[1], this.axis.unit);
+        T.number(this.lo * (this.axis.times || 1)) + " … " + T.length(this.axis, this.hi) + " of " + T.length(this.axis, this.full[1]);
     }
 
     // why samples near x stand out: within five pixels

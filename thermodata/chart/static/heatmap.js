@@ -73,7 +73,7 @@
 
     _axis(ctx, z, r) {
       const s = this.spec, span = s.columns * s.step, y = (s.rows.length * ROW + 8) * r;
-      const steps = s.axis.unit === "%" ? [1, 2, 5, 10, 20, 50, 100] : [0.1, 0.2, 0.5, 1, 2, 4, 6, 12, 24, 48, 96];
+      const steps = s.axis.unit === "%" ? [1, 2, 5, 10, 20, 50, 100] : [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 4, 6, 12, 24, 48, 96];
       const step = steps.find(v => span / v <= Math.max(z.plot / 60, 2)) || span;
       for (let at = Math.ceil(s.start / step) * step; at <= s.start + span + step * 1e-6; at += step) {
         T.text(ctx, T.tick(at), (z.left + (at - s.start) / span * z.plot) * r, y, T.colour("muted"), r, 11, "center");

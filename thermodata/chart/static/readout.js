@@ -41,16 +41,27 @@
     return v === null || v === undefined ? "no data" : T.number(v) + (u ? "\u00a0" + u : "");
   };
 
+  // the axis as it is read: hours, of which there is not one, as minutes; places of the chart and of its events stay hours
+  T.told = (axis, full) => axis.unit === "h" && !axis.time && axis.scale !== "log" && full[1] - full[0] < 1
+    ? Object.assign({}, axis, {shown: "min", times: 60}) : axis;
+  // even places between low and high, round in what is read (times the place): at most `most`
+  T.even = function (low, high, times, most) {
+    const span = (high - low) * times, rough = span / Math.max(most, 2), ten = Math.pow(10, Math.floor(Math.log10(rough)));
+    const step = [1, 2, 5, 10].map(v => v * ten).find(v => v >= rough * 0.999), made = [];
+    for (let i = Math.ceil(low * times / step - 1e-9); i * step <= high * times + step * 1e-9; i++) made.push(i * step / times);
+    return made;
+  };
+
   // a place on the x axis: '9.052 h (9:03:07)', or a date in UTC
   T.at = function (axis, x) {
     if (axis.time) return new Date(x * 1000).toISOString().replace("T", " ").replace(/\.?0*Z$/, " UTC");
-    const text = T.withunit(x, axis.unit);
+    const text = T.length(axis, x);
     if (axis.unit !== "h") return text;
     const s = Math.round(Math.abs(x) * 3600), two = n => String(n).padStart(2, "0");
     return text + " (" + (x < 0 ? "−" : "") + Math.floor(s / 3600) + ":" + two(Math.floor(s / 60) % 60) + ":" + two(s % 60) + ")";
   };
   T.length = function (axis, d) {
-    return axis.time ? T.number(d / 3600) + "\u00a0h" : T.withunit(d, axis.unit);
+    return axis.time ? T.number(d / 3600) + "\u00a0h" : T.withunit(d * (axis.times || 1), axis.shown || axis.unit);
   };
 
   T.make = function (tag, name, text) {

@@ -31,7 +31,9 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 
 
 @command("gc")
-@click.option("--grace", default="1 h", show_default=True, help="Files younger than this are left alone.")
+@click.option(
+    "--grace", metavar="TIME", default="1 h", show_default=True, help="Files younger than this are left alone."
+)
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
     from thermodata.schema.units.quantity import value_in

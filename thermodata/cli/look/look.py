@@ -16,7 +16,9 @@ from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
 from thermodata.view.lists.overview import Asked, find_tests
 
-campaign_option = click.option("--campaign", "-c", help="Only this campaign.", shell_complete=completing.campaigns)
+campaign_option = click.option(
+    "--campaign", "-c", metavar="CAMPAIGN", help="Only this campaign.", shell_complete=completing.campaigns
+)
 
 
 def rows_of(session: Session, query: str, campaign: str | None, order: str) -> list[dict[str, Any]]:
@@ -56,8 +58,10 @@ def _refuse_unknown(role: str | None, kind: str | None) -> None:
 
 @command("tests")
 @campaign_option
-@click.option("--role", help="Only of this role.")
-@click.option("--kind", help="Only of this kind.")
+@click.option("--role", metavar="ROLE", help="Only of this role: calibration, verification, locked or none.")
+@click.option(
+    "--kind", metavar="KIND", help="Only of this kind: spindle, linear_axis, etve, ... as the campaign file says."
+)
 @click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
 def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
@@ -99,7 +103,11 @@ def tests_command(session: Session, campaign: str | None, role: str | None, kind
 @command("channels")
 @campaign_option
 @click.option(
-    "--test", "-t", shell_complete=completing.tests, help="As they are in this test (default: each channel once)."
+    "--test",
+    "-t",
+    metavar="TEST",
+    shell_complete=completing.tests,
+    help="As they are in this test (default: each channel once).",
 )
 def channels_command(session: Session, campaign: str | None, test: str | None) -> None:
     """List the channels: quantity, unit, place, sign, origin."""
@@ -127,7 +135,7 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
                 ("raw_unit", "raw unit"),
                 ("calibration", "calibration"),
             ],
-            widest=36,
+            widest=64,
         ),
     )
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
-from thermodata.report.text.table import fields
+from thermodata.report.text.table import fields, prose
 
 
 @command("snapshot")
@@ -34,9 +36,10 @@ def snapshot_command(session: Session, out: Path) -> None:
 @click.argument("out", type=click.Path(path_type=Path, dir_okay=False))
 @click.option(
     "--step",
+    metavar="TIME",
     default="30 s",
     show_default=True,
-    help="Means of this long, states held; 'logged': as it was logged, with flags (Excel, MAT, MDF4).",
+    help="Means of so long (10 s, 1 min), states held; 'logged': as it was logged, with flags (Excel, MAT, MDF4).",
 )
 @click.option(
     "--format",
@@ -67,7 +70,16 @@ def export_command(
     found = [plain(export_test(view, campaign, test, path, step=step, kind=kind)) for test, path in paths.items()]
 
     def text() -> str:
-        shown = [{**one, "rows": one["streams"] or one["rows"]} for one in found]
-        return "\n\n".join(fields([(k, v) for k, v in one.items() if k != "streams"]) for one in shown)
+        return "\n\n".join(_told(one) for one in found)
 
     session.answer(found[0] if len(tests) == 1 else found, text)
+
+
+def _told(one: Mapping[str, Any]) -> str:
+    """Of an export for a person: each column once, with its unit."""
+    units = one["units"]
+    columns = [f"{name} [{units[name]}]" if units.get(name) not in (None, "", "1") else name for name in one["columns"]]
+    shown = {**one, "rows": one["streams"] or one["rows"], "columns": columns}
+    lines = fields([(key, value) for key, value in shown.items() if key not in ("streams", "units")]).splitlines()
+    # a path stays whole, to be copied
+    return "\n".join(prose(line) if line.startswith("columns ") else line for line in lines)

@@ -41,18 +41,36 @@ def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
     required=True,
     help="Structured text, Siemens SCL, C99, and so on; yaml: its model file.",
 )
-@click.option("--cycle", callback=_seconds, default="1s", show_default=True, help="The control calls it this often.")
+@click.option(
+    "--cycle",
+    metavar="TIME",
+    callback=_seconds,
+    default="1s",
+    show_default=True,
+    help="The control calls it this often: 1s, 100 ms.",
+)
 @click.option(
     "--out", "-o", type=click.Path(path_type=Path, file_okay=False), metavar="DIR", help="Where to write (default: .)."
 )
 @click.option("--real", type=click.Choice(["real", "lreal"]), help="Width of numbers: 32 or 64 bits (st, scl: real).")
 @click.option("--response", metavar="CHANNEL", help="Which, of a model with several.")
-@click.option("--name", help="Of the program (default: model_response).")
+@click.option("--name", metavar="NAME", help="Of the program (default: model_response).")
 @click.option("--without", metavar="EFFECT,...", default="", help="Effects to leave out.")
 @click.option("--group", "groups", multiple=True, metavar="EFFECT=VALUE", help="Whose gain, where gain_by has several.")
-@click.option("--limit", type=float, help="Largest correction [um] (default: half more than in the tests).")
-@click.option("--rate", type=float, help="Largest change [um a minute] (default: twice what the tests had).")
-@click.option("--hold", callback=_seconds, default="10 min", show_default=True, help="How long a bad reading is held.")
+@click.option(
+    "--limit", type=float, metavar="UM", help="Largest correction [um] (default: half more than in the tests)."
+)
+@click.option(
+    "--rate", type=float, metavar="UM", help="Largest change [um a minute] (default: twice what the tests had)."
+)
+@click.option(
+    "--hold",
+    metavar="TIME",
+    callback=_seconds,
+    default="10 min",
+    show_default=True,
+    help="How long a bad reading is held.",
+)
 @click.option("--force", is_flag=True, help="Replace files that exist.")
 def model_command(
     session: Session,

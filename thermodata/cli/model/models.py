@@ -14,6 +14,8 @@ from thermodata.report.text.table import table
 if TYPE_CHECKING:
     from thermodata.view.lists.models import ModelRow
 
+MOST_LETTERS = 300  # of effects or responses: a dozen with long names, folded
+
 
 @command("models")
 @campaign_option
@@ -58,11 +60,11 @@ def _text(rows: list[dict[str, Any]]) -> str:
     named = {"calibration_um": "calibration", "verification_um": "verification", "tests": "of tests"}
     tail = ("unit", "verdict", "made", "tests", "stale", "fitted")
     columns = [(key, named.get(key, key)) for key in (*heads, *tail)]
-    return table(shown, columns)
+    return table(shown, columns, widest=MOST_LETTERS)
 
 
 def _effects(row: dict[str, Any], parent: dict[str, Any] | None) -> str:
-    """Of a version what it has more and less than the one that it came from, for a list of ten effects is cut."""
+    """Of a version what it has more and less than the one that it came from, for a list of ten effects is long."""
     if parent is None or parent["name"] != row["name"] or parent["version"] == row["version"]:
         return ", ".join(row["effects"])
     now, before = Counter(row["terms"]), Counter(parent["terms"])

@@ -14,13 +14,14 @@ from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.text.table import table
-from thermodata.report.words.numbers import MOST_NAMED, duration, number, probability_text
+from thermodata.report.words.numbers import MOST_NAMED, correlation_text, duration, number, probability_text
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from thermodata.modelling.seen.as_system import Seen, SeenPath
+    from thermodata.modelling.seen.residual_tests import Against
     from thermodata.store.catalogue.models import StoredModel
 
 F = TypeVar("F", bound=Callable[..., object])
@@ -220,12 +221,15 @@ def _residual(seen: Seen) -> str:
         white = "white" if one.p_value > 0.05 else "not white"
         lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, {probability_text(one.p_value)}: {white}")
     if seen.states:
-        rows = [
-            {"state": s.state, "r": f"{s.correlation:+.2f}", "slope": f"{number(s.slope)} {_per(seen.unit, s.unit)}"}
-            for s in seen.states
-        ]
+        rows = [{"state": s.state, "r": correlation_text(s.correlation), "slope": _slope(seen, s)} for s in seen.states]
         lines += ["", table(rows, [("state", "residual against"), ("r", "correlation"), ("slope", "slope")], widest=80)]
     return "\n".join(lines)
+
+
+def _slope(seen: Seen, state: Against) -> str:
+    """Of what hangs together not at all, none: what rounding leaves of it is no number to read."""
+    slope = 0.0 if float(correlation_text(state.correlation)) == 0.0 else state.slope
+    return f"{number(slope)} {_per(seen.unit, state.unit)}"
 
 
 def _per(unit: str, over: str) -> str:

@@ -252,8 +252,8 @@ def _summary(rows: list[dict[str, Any]]) -> str:
 
 @command("preview")
 @click.argument("file", type=_LogPath(path_type=Path, exists=True, dir_okay=False))
-@click.option("--reader", "name", help="Use this reader (default: the one that claims FILE).")
-@click.option("--timezone", help="IANA zone of local times, for example Europe/Prague.")
+@click.option("--reader", "name", metavar="READER", help="Use this reader (default: the one that claims FILE).")
+@click.option("--timezone", metavar="ZONE", help="IANA zone of local times, for example Europe/Prague.")
 @click.option("--rows", default=5, show_default=True, type=click.IntRange(0, 1000), help="Rows of each stream.")
 @click.option(
     "--campaign",

@@ -162,8 +162,8 @@ def _checked(row: dict[str, Any]) -> str:
     """Whether the checks hold; of a gain that was declared, and no jump test measured, only what was declared was held
     against itself."""
     if not all(c.get("passed", True) for c in row.get("checks") or []):
-        return "no"
-    return "yes" if row["kind"] == "jump" else "not measured"
+        return "failed"
+    return "passed" if row["kind"] == "jump" else "not measured"
 
 
 def _number(value: Any) -> str:

@@ -6,6 +6,7 @@ import errno
 import functools
 import os
 import re
+import sys
 from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass
@@ -112,12 +113,15 @@ class WithActions(click.Command):
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
-    """A text that says um, in the units of the responses (`report.words.numbers.in_units`)."""
+    """A text that says um, in the units of the responses (`report.words.numbers.in_units`); at a terminal its sentences
+    are folded, which else would break within words. A file or a pipe has each in one line."""
+    from thermodata.report.text.table import sentences_folded
     from thermodata.report.words.numbers import in_units
     from thermodata.view.lists.response_units import response_units
 
     names = [response] if isinstance(response, str) else response
-    return in_units(text, response_units(session.store(), names))
+    told = in_units(text, response_units(session.store(), names))
+    return sentences_folded(told) if sys.stdout.isatty() else told
 
 
 def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:

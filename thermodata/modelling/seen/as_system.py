@@ -175,7 +175,7 @@ def _states(
             if mode is not None:
                 node = law.Filtered(node, Filter(modes=(replace(mode, weight=1.0),)))
             courses = [_course(terms[term.id], node, t, step_s) for t in tests]
-            tau = "" if mode is None or mode.tau_s is None else f" after {mode.tau_s / 60:.3g} min"
+            tau = "" if mode is None or mode.tau_s is None else f" after {_told(mode.tau_s)}"
             unit = written_unit(_drives(path, term)[0] or {}) or "1"
             found.append(against(f"{term.id}: {_named(path.drive, term)}{tau}", unit, courses, residuals))
     unique = {a.state: a for a in found}
@@ -186,3 +186,8 @@ def _course(term: FittedTerm, node: law.Node, test: TestData, step_s: float) -> 
     if isinstance(term.effect, OfTests) or not (term.bound.covers(test) and term.bound.has(test)):
         return np.full(int(test.in_window.sum()), np.nan)
     return evaluate(node, term.bound.drivers(test).values, step_s)[test.in_window]
+
+
+def _told(tau_s: float) -> str:
+    minutes = tau_s / 60.0
+    return f"{minutes:.3g} min" if minutes < 999.5 else f"{minutes / 60.0:.3g} h"

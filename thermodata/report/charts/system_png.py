@@ -4,6 +4,7 @@ residual against each state."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen.as_system import Seen
-from thermodata.report.words.numbers import probability_text
+from thermodata.report.words.numbers import correlation_text, probability_text
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.store.base.files import whole_file
 
@@ -21,7 +22,9 @@ DPI = 110
 LEGEND_BESIDE = 1.6  # of the curves' length: where the axis ends
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 PERIODS_MIN = {"1 min": 1.0, "10 min": 10.0, "1 h": 60.0, "6 h": 360.0, "1 d": 1440.0, "1 week": 10080.0}
+MOST_DECADES = 2.5
 SHORTEST_STEPS = 8.0  # a period that is drawn: below, what samples make of it (0 or 180 deg at two) is not the model
+TITLE_WIDE, LABEL_WIDE = 58, 50  # [letters] that have room over half of the picture, and under a third of it
 # nothing of when and by what it was drawn: the same model gives the same file
 ANONYMOUS = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
@@ -73,7 +76,7 @@ def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
         axes.plot([*t / 3600.0, longest / 3600.0], [*y, y[-1]], **looks[p.name], label=f"{p.name} [{p.unit}]")
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.set(
-        title=f"Step response of {seen.response}, a unit of each drive",
+        title=folded(f"Step response of {seen.response}, a unit of each drive", TITLE_WIDE),
         xlabel="time [h]",
         ylabel=f"[{seen.unit} a unit]",
     )
@@ -94,9 +97,33 @@ def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) 
     axes.invert_xaxis()
     shown = {name: at for name, at in PERIODS_MIN.items() if low <= at <= high}
     axes.set_xticks(list(shown.values()), list(shown))
+    if not phase:
+        _plain_decades(axes)
     axes.grid(True, which="major", color="0.9")
     what = "phase [deg]" if phase else f"magnitude [{seen.unit} a unit]"
     axes.set(title=f"Bode: {what}", xlabel="period", ylabel=what)
+
+
+def _plain_decades(axes: Any) -> None:
+    """0.1, 0.2, 0.5, 1 in place of powers of ten, of which a picture may hold one or none; tens where it holds many."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    low, high = axes.get_ylim()
+    many = math.log10(high / low) > MOST_DECADES
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if many else (1.0, 2.0, 5.0), numticks=20))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def folded(text: str, wide: int) -> str:
+    """In lines of at most `wide` letters, broken at blanks, and within a longer name behind '_', '.', ':' or '/'."""
+    lines, line = list[str](), ""
+    for piece in re.findall(r"[^\s_.:/]*(?:[_.:/]+|\s+|$)", text):
+        if line and len((line + piece).rstrip()) > wide:
+            lines.append(line.rstrip())
+            line = ""
+        line += piece
+    return "\n".join([*lines, line.rstrip()])
 
 
 def _correlation(axes: Any, seen: Seen) -> None:
@@ -121,6 +148,6 @@ def _against(axes: Any, state: Any, unit: str) -> None:
     axes.errorbar(state.centres, state.means, yerr=state.sds, fmt="o-", color="#2f6f9f", ecolor="#b8cfe0", markersize=3)
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     over = "" if state.unit in ("1", "") else f" [{state.unit}]"
-    axes.set(xlabel=f"{state.state}{over}", ylabel=f"residual [{unit}]")
-    axes.set_title(f"Residual, mean ± standard deviation, r = {state.correlation:+.2f}", fontsize="medium")
+    axes.set(xlabel=folded(f"{state.state}{over}", LABEL_WIDE), ylabel=f"residual [{unit}]")
+    axes.set_title(f"Residual, mean ± standard deviation, r = {correlation_text(state.correlation)}", fontsize="medium")
     axes.xaxis.label.set_size("small")

@@ -29,6 +29,7 @@ from thermodata.report.words.glossary import HOW, NOISE
 from thermodata.report.words.numbers import (
     base_role,
     change,
+    correlation_text,
     duration,
     heat_lines,
     in_unit,
@@ -94,6 +95,7 @@ def _template() -> Any:
         typeset=typeset,
         probability=probability,
         change=change,
+        correlation=correlation_text,
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
     return environment.from_string((files("thermodata.report.page") / "page.html.j2").read_text(encoding="utf-8"))

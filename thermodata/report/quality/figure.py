@@ -34,6 +34,7 @@ SEVERITY = (
 _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
 _PANEL, _A_LABEL = 120, 13  # [px]
 _MOST_PANELS = 6
+_GAP_STEPS = 3.5  # of a channel's own, as at ingest
 _DRIFTING = ("displacement", "tilt")
 _ORDER = (
     "displacement",
@@ -107,17 +108,8 @@ def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
     name = quantity.replace("_", " ")
     if quantity in _DRIFTING:
         members, name = [_from_first(t) for t in members], f"{name}, from the first valid value"
-    curves = [
-        Series(
-            t.name,
-            t.unit,
-            t.good,
-            *styles.get(t.name, ("quiet", "solid"))[:1],
-            dash=styles.get(t.name, ("quiet", "solid"))[1],
-            width=1.6 if t.name in styles else 1.2,
-        )
-        for t in sorted(members, key=_bad)
-    ]
+    ordered = sorted(members, key=_bad)
+    curves = [_curve(t, hours, *styles.get(t.name, ("quiet", "solid")), t.name in styles) for t in ordered]
     return Panel(
         name,
         members[0].unit,
@@ -126,6 +118,17 @@ def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
         range=_limits(members),
         marks=[_marks(t, hours) for t in members if _bad(t)],
     )
+
+
+def _curve(trace: Trace, hours: Float1D, colour: str, dash: str, coloured: bool) -> Series:
+    """A channel of fewer samples than bins is a line through its samples: a bin between two of them is no gap."""
+    x, y, width = None, trace.good, 1.6 if coloured else 1.2
+    at = np.flatnonzero(np.isfinite(trace.good) | (trace.flags != 0))
+    if len(at) > 1 and trace.samples < len(trace.good):
+        steps = np.diff(at)
+        ends = np.flatnonzero(steps > _GAP_STEPS * np.median(steps)) + 1
+        x, y = np.insert(hours[at], ends, hours[at[ends]]), np.insert(trace.good[at], ends, np.nan)
+    return Series(trace.name, trace.unit, y, colour, x=x, dash=dash, width=width)
 
 
 def _from_first(trace: Trace) -> Trace:

@@ -15,6 +15,7 @@ from thermodata.report.words.causes import Cause, by_cause
 from thermodata.report.words.numbers import duration, typeset
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 from thermodata.schema.words.sentences import counted
+from thermodata.store.tidy.flags.not_measuring import ONLY
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -53,13 +54,14 @@ def render(tests: Sequence[TestQuality]) -> str:
 def headline(tests: Sequence[TestQuality]) -> str:
     """The page's first sentence: how much does not count, and why most of it."""
     samples = sum(t.samples for test in tests for t in test.traces)
-    flagged = sum(t.flagged for test in tests for t in test.traces)
+    idle = sum(t.idle for test in tests for t in test.traces)
+    flagged = idle + sum(t.flagged for test in tests for t in test.traces)
     if not samples:
         return "No samples"
-    reasons = Counter[str]()
+    reasons = Counter({Flag.NOT_MEASURING.word: idle})
     for test in tests:
         for event in test.events:
-            if event["flag"] not in _INFORMATION and not _overruled(event):
+            if event["flag"] not in _INFORMATION and not _overruled(event) and event["detail"] != ONLY:
                 reasons[event["flag"]] += event["n"] or 0
     if not flagged:
         return f"All of {count(samples)} samples in {counted(len(tests), 'test')} count"
@@ -138,14 +140,14 @@ def _names(trace: Trace) -> set[str]:
 
 
 def _shown(test: TestQuality, key: str) -> dict[str, Any]:
-    samples, flagged = sum(t.samples for t in test.traces), sum(t.flagged for t in test.traces)
+    samples, idle = sum(t.samples for t in test.traces), sum(t.idle for t in test.traces)
+    flagged = idle + sum(t.flagged for t in test.traces)
     counts = Counter(e["flag"] for e in test.events if not _overruled(e))
     worst = sorted((t for t in test.traces if t.flagged), key=lambda t: -t.flagged)[:3]
     longest = sorted(test.events, key=lambda e: -((e["to_s"] or 0) - (e["from_s"] or 0)))[:_MOST_EVENTS]
     longest.sort(key=lambda e: (e["from_s"] or 0, e["channel"] or ""))
-    idle = sum(t.idle for t in test.traces)
     return {
-        "idle": f"; {share(idle, samples)} not measuring" if idle else "",
+        "idle": f", {'all of them' if idle == flagged else share(idle, samples)} while not measuring" if idle else "",
         "key": key,
         "test": test.test,
         "kind": test.kind,

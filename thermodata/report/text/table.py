@@ -6,12 +6,16 @@ import re
 import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from thermodata.report.words.numbers import number
 
 Column = tuple[str, str]  # (key of the row, heading)
-_WORD = r"[^\s:]+:(?=[A-Za-z])|\S+"
+_WORD = r"[^\s:/]+:(?=[A-Za-z])|[^\s:/]{8,}/(?=[A-Za-z])|\S+"
+# within a cell: a number and its unit, and both ends of a range
+_TOGETHER = re.compile(r"(?<=\d) (?=(?:%|h|min|s|um)(?:\W|$))|(?<=\S) (?=[…–] )|(?<=[…–]) (?=\S)")
+_TIE = "\0"  # a space there, until the lines are made
 
 
 def cell(value: Any) -> str:
@@ -31,23 +35,57 @@ def cell(value: Any) -> str:
 def table(
     rows: Sequence[Mapping[str, Any]], columns: Iterable[Column], *, widest: int = 60, width: int | None = None
 ) -> str:
-    """Aligned text; columns of numbers to the right, texts longer than `widest` cut with '…'.
+    """Aligned text; columns of numbers to the right, texts longer than `widest` cut with '…', names in their middle.
 
     width: of the screen; `screen_width()` where None. Where the columns are wider, what all rows share is said once
-    above them, and headings and texts are folded at their spaces, numbers never; columns that still have no room stand
-    in a table below, beside what tells the rows apart again.
+    above them, and headings and texts are folded at their spaces, numbers and ranges never; columns that still have no
+    room stand in a table below, beside what tells the rows apart again. Where there is no room for that either, each
+    run of rows that share the first column has tables of its own, and says once what it shares.
     """
     columns = list(columns)
-    lines = [[cell(row.get(key)) for key, _ in columns] for row in rows]
-    lines = [[c if len(c) <= widest else c[: widest - 1] + "…" for c in line] for line in lines]
+    lines = [[_TOGETHER.sub(_TIE, _cut(cell(row.get(key)), widest)) for key, _ in columns] for row in rows]
     right = [_numbers(rows, key) for key, _ in columns]
     made = [
         _Column(heading, [line[i] for line in lines], is_number)
         for i, ((_, heading), is_number) in enumerate(zip(columns, right, strict=True))
     ]
     room = screen_width() if width is None else width
-    said, made = _said_once(made, room)
-    return "\n\n".join([*said, *(_drawn(part, room) for part in _parts(made, room))])
+    return _told(made, room).replace(_TIE, " ")
+
+
+def _told(columns: Sequence[_Column], room: int) -> str:
+    said, made = _said_once(columns, room)
+    parts = _parts(made, room)
+    told_apart = len(parts) == 1 or _tells_apart(made[: _names(made, room)])
+    if (told_apart and all(_least(part) <= room for part in parts)) or not (runs := _runs(made[0])):
+        return "\n\n".join([*said, *(_drawn(part, room) for part in parts)])
+    told = list[str]()
+    for a, b in runs:
+        shared, run = _said_once([_Column(c.heading, c.cells[a:b], c.right) for c in made[1:]], room)
+        told += [prose(", ".join([f"{made[0].heading} {made[0].cells[a]}", *shared]), room), _told(run, room)]
+    return "\n\n".join([*said, *told])
+
+
+def _runs(column: _Column) -> list[tuple[int, int]]:
+    """From where to where a text stays the same; none where it does not say much of the rows together."""
+    edges = [i for i, c in enumerate(column.cells) if i == 0 or c != column.cells[i - 1]]
+    if column.right or 2 * len(edges) > len(column.cells):
+        return []
+    return list(pairwise([*edges, len(column.cells)]))
+
+
+def _tells_apart(columns: Sequence[_Column]) -> bool:
+    return len(set(zip(*(c.cells for c in columns), strict=True))) == len(columns[0].cells)
+
+
+def _cut(text: str, widest: int) -> str:
+    """A name in its middle, for names that are alike differ at their end; a text at its end."""
+    if len(text) <= widest:
+        return text
+    if " " in text:
+        return text[: widest - 1] + "…"
+    head = (widest - 1) // 2
+    return text[:head] + "…" + text[len(text) - (widest - 1 - head) :]
 
 
 def screen_width() -> int:
@@ -63,6 +101,18 @@ def prose(text: str, width: int | None = None) -> str:
     for line in text.splitlines():
         first, *rest = _fold(line, room)
         told += [first, *(f"  {x}" for x in _fold(line[len(first) :].lstrip(), room - 2) if rest)]
+    return "\n".join(told)
+
+
+def sentences_folded(text: str, width: int | None = None) -> str:
+    """`prose` of the lines that are sentences, put in as they are; rows of tables, whose columns two spaces part, stay
+    whole."""
+    room = screen_width() if width is None else width
+    told = list[str]()
+    for line in text.split("\n"):
+        body = line.strip()
+        put_in = line[: len(line) - len(line.lstrip())]
+        told += [line] if "  " in body else [put_in + x for x in prose(body, room - len(put_in)).split("\n")]
     return "\n".join(told)
 
 
@@ -87,7 +137,9 @@ def _said_once(columns: Sequence[_Column], room: int) -> tuple[list[str], list[_
     """What all rows share stands above them, where the columns have no room beside each other."""
     if sum(c.widest for c in columns) + 2 * (len(columns) - 1) <= room:
         return [], list(columns)
-    same = [c for c in columns if not c.right and len(c.cells) > 1 and len(set(c.cells)) == 1]
+    # of a single row what it stands in, which is a campaign mostly
+    several = [c for c in columns if len(c.cells) > 1] or (columns[:1] if len(columns) > 2 else [])
+    same = [c for c in several if not c.right and len(set(c.cells)) == 1]
     if not same or len(same) == len(columns):
         return [], list(columns)
     said = ", ".join(f"{c.heading} {c.cells[0]}" for c in same if c.cells[0] != "-")
@@ -97,7 +149,7 @@ def _said_once(columns: Sequence[_Column], room: int) -> tuple[list[str], list[_
 def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
     """The columns in as many tables as have room for them; those that name the rows begin each."""
     names = _names(columns, room)
-    if sum(c.least for c in columns) + 2 * (len(columns) - 1) <= room:
+    if _least(columns) <= room:
         return [list(columns)]
     head, parts = list(columns[:names]), list[list[_Column]]()
     taken = sum(c.least + 2 for c in head)
@@ -112,15 +164,18 @@ def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
     return [*parts, [*head, *now]]
 
 
+def _least(columns: Sequence[_Column]) -> int:
+    return sum(c.least for c in columns) + 2 * (len(columns) - 1)
+
+
 def _names(columns: Sequence[_Column], room: int) -> int:
     """How many of the first columns name a row: those before the first number, and more until no two rows share them,
     where that leaves half of the room to others."""
     texts = next((i for i, c in enumerate(columns) if c.right), 1) or 1
-    rows = len(columns[0].cells) if columns else 0
     for n in range(texts, len(columns)):
         if sum(c.least + 2 for c in columns[:n]) > room / 2:
             break
-        if len({tuple(c.cells[i] for c in columns[:n]) for i in range(rows)}) == rows:
+        if _tells_apart(columns[:n]):
             return n
     return texts
 

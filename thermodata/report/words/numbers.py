@@ -75,6 +75,12 @@ def _typeset(text: str) -> str:
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
+def correlation_text(r: float) -> str:
+    """'+0.42', '-0.07'; '0.00' of what is nothing, which has no sign."""
+    text = f"{r:+.2f}"
+    return text[1:] if float(text) == 0.0 else text
+
+
 def probability_text(p: float) -> str:
     """'p 0.031'; of one too small for a number 'p below 1e-10': no test of samples says that it is 0."""
     return f"p {p:.2g}" if p >= _SMALLEST else f"p below {_SMALLEST:.0e}"

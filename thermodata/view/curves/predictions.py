@@ -73,7 +73,8 @@ def residual_strips(
     store: Store, model: str, keys: Sequence[Key], response: str | None = None, bins: int = 60
 ) -> dict[Key, Float1D]:
     """(campaign, test) -> the mean residual in each of `bins` even stretches of the prediction, shape (bins,); NaN
-    where nothing was measured. Tests without a prediction are absent. response: the first one where None."""
+    where nothing was measured. Of a test of fewer samples than stretches each has that of the sample next to it. Tests
+    without a prediction are absent. response: the first one where None."""
     with store.reader() as con:
         listed = _paths(con, store.path, model, keys)
         paths = {
@@ -87,16 +88,31 @@ def residual_strips(
             f"with r as (select file_index as i, t_s, residual, valid from read_parquet({file_list(paths.values())})), "
             "s as (select i, min(t_s) as low, greatest(max(t_s) - min(t_s), 1e-9) as span from r group by 1) "
             "select r.i, least(cast(floor((r.t_s - s.low) / s.span * $bins) as integer), $bins - 1) as k, "
-            "avg(r.residual) filter (r.valid and isfinite(r.residual)) as residual "
+            "avg(r.residual) filter (r.valid and isfinite(r.residual)) as residual, count(*) as n "
             "from r join s on s.i = r.i group by all",
             {"bins": bins},
         ).fetchall()
     strips = {key: np.full(bins, np.nan) for key in paths}
+    sampled = {key: np.zeros(bins, np.bool_) for key in paths}
     names = list(paths)
-    for i, k, value in got:
+    few = dict.fromkeys(paths, True)
+    for i, k, value, n in got:
+        sampled[names[i]][k] = True
+        few[names[i]] &= n == 1
         if value is not None:
             strips[names[i]][k] = value
-    return strips
+    return {
+        key: _nearest(strip, sampled[key]) if few[key] and sampled[key].any() else strip
+        for key, strip in strips.items()
+    }
+
+
+def _nearest(strip: Float1D, sampled: Bool1D) -> Float1D:
+    """The strip of a short test, whose stretches between two samples have that of the nearer one: they were measured,
+    only less often than they are drawn. sampled: shape (bins,), whether a sample lies there."""
+    at = np.flatnonzero(sampled)
+    middles = (at[1:] + at[:-1] + 1) / 2
+    return strip[at[np.searchsorted(middles, np.arange(len(strip)), side="right")]]
 
 
 def residual_courses(store: Store, model: str, keys: Sequence[Key]) -> dict[tuple[str, str, str], Float1D]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from textwrap import wrap
 
 from thermodata.chart.colour import FONT, light
 from thermodata.virtual.blind.reliability import Reliability
@@ -13,6 +14,7 @@ INK, MUTED, GRID, PAPER, MODEL, RESIDUAL = (
     light()[name] for name in ("ink", "muted", "grid", "paper", "model", "residual")
 )
 SIDE, LEFT, TOP, BELOW = 360, 62, 52, 132  # [px]
+TITLE_WIDE = 48  # [letters]: more would stand beyond the edge
 STRIP = 44  # height of the counts below
 LOOK = {"first": (MODEL, -4), "claim": (RESIDUAL, 4)}  # colour, shift [px]
 
@@ -24,7 +26,7 @@ def diagram(found: Sequence[Reliability], title: str) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
         f'font-family="{escape(FONT, quote=True)}" font-size="11">',
         f'<rect width="{width}" height="{height}" fill="{PAPER}"/>',
-        _text(LEFT, 18, title, size=13),
+        *(_text(LEFT, 18 + 16 * i, line, size=13) for i, line in enumerate(wrap(title, TITLE_WIDE))),
         *_axes(),
     ]
     most = max((b.of for one in found for b in one.bins), default=1)
