@@ -724,10 +724,11 @@ MUTANTS = [
     ),
     diagnosis(
         "faults.py",
-        'faults if judgement.verdict == "none" and at_floor else',
-        "faults if True else",
+        '"gain": judgement.verdict == "none" and at_floor',
+        '"gain": True',
         "a missing effect passes as a wrong gain",
     ),
+    diagnosis("faults.py", '"clock_offset": not judgement.claims', '"clock_offset": True', "a cause passes as a clock"),
     diagnosis("logging_faults.py", "and s != home", "", "the response's own clock is suspected"),
     diagnosis(
         "compressed.py",
