@@ -81,10 +81,15 @@ def test_parameters_are_told_with_interval_bound_and_what_a_gain_is_of() -> None
     told = {"feed_screw.tau": tau, "feed_screw.gain": gain}
     said = text("effect", ranked(1, "feed_screw", claimed=True, parameters=told))
     assert "feed_screw:T: feed_screw.tau 1.00 min (at its bound; up to 4.12), feed_screw.gain 8.59 um (7.99 to" in said
-    assert "; in brackets intervals of 95 %\nfeed_screw.gain is displacement at rest a kelvin (um at 10 m/min" in said
+    behind = "; what stands at its bound may be the work of another effect"
+    assert (
+        f"; in brackets intervals of 95 %{behind}\nfeed_screw.gain is displacement at rest a kelvin (um at 10 m/min"
+        in said
+    )
     inside = tau.model_copy(update={"value": 2.0})
     alike = ranked(1, "feed_screw", claimed=True, parameters={"feed_screw.tau": inside})
     assert "feed_screw.tau 2.00 min (up to 4.12)" in text("effect", alike)
+    assert behind not in text("effect", alike)
     per_kelvin = ranked(
         1, "feed_screw", claimed=True, parameters={"feed_screw.gain": Parameter(value=1.0, unit="um/K")}
     )

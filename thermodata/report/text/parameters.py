@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from thermodata.schema.answers.result import Parameter
 
 _SAME = 1e-6
+AT_BOUND = "at its bound"
 
 
 def parameters_text(one: Candidate) -> str:
@@ -24,12 +25,14 @@ def parameters_text(one: Candidate) -> str:
     each = [f"{name} {quantity(p.value, p.unit)}{_interval(name, p, effect)}" for name, p in one.parameters.items()]
     known = any(p.low is not None or p.high is not None for p in one.parameters.values())
     told = ", ".join(each) + ("; in brackets intervals of 95 %" if known else "")
+    if AT_BOUND in told:
+        told += "; what stands at its bound may be the work of another effect"
     return "\n".join([told, *_meanings(one, effect)])
 
 
 def _interval(name: str, p: Parameter, effect: Effect | None) -> str:
     """' (22.3 to 25.6)', ' (at its bound; up to 4.12)'; '' where these tests set none, and no bound holds it."""
-    bound = "at its bound" if (p.low is None or p.high is None) and _is_at_bound(name, p, effect) else ""
+    bound = AT_BOUND if (p.low is None or p.high is None) and _is_at_bound(name, p, effect) else ""
     ends = ""
     if p.low is not None and p.high is not None:
         ends = f"{number(p.low)} to {number(p.high)}"
