@@ -412,6 +412,19 @@ def test_a_claim_that_the_locked_tests_contradict_is_withdrawn_with_its_own_figu
     assert both.startswith("a:T_a with b:T_b explain the open tests, but the locked ones do not bear them out")
 
 
+def test_what_the_locked_tests_bear_out_as_far_as_it_acts_there_and_make_too_little_probable_is_said_so() -> None:
+    """It does 0.3 um beside 1 um of other misfit, so that its error can fall by no more than 5 %."""
+    little = Foretold(1.0, 0.95, 0.3)
+    assert little.holds
+    found = Asked(lambda one, whole: looked(little, little)).kept(judged("a", evidence=100.0))
+    assert found.verdict == "unknown"
+    assert found.reason.startswith(
+        "a:T_a explains the open tests, and the locked ones as far as what it does there can (error there, with a free "
+        "offset a test, 1.00 -> 0.950 um), but they make it "
+    )
+    assert "limit" in found.reason
+
+
 @pytest.mark.parametrize(
     ("foretold", "added", "log_odds", "refuted"),
     [

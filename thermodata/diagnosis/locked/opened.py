@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
 from thermodata.diagnosis.verdict.preference import UNNAMED, is_its_name
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.words.sentences import apart, beside
 
 TWINS_TRIED = 4
 
@@ -149,4 +150,10 @@ def _why(refused: Sequence[Judged], unit: str) -> str:
         if least is None
         else f" (error there, with a free offset a test, {from_to(least.before, least.after, unit)})"
     )
+    if len(refused) == 1 and looks and all(f.holds for f in looks[0].saying) and not looks[0].spoils:
+        sure, limit = probability(refused[0].scored), limit_of(refused[0].scored)
+        return (
+            f"{names[0]} explains the open tests, and the locked ones as far as what it does there can{there}, but "
+            f"they make it {apart(sure, limit)} probable only ({beside(sure, limit)})"
+        )
     return f"{' with '.join(names)} {explain} the open tests, but the locked ones do not bear {them} out{there}"
