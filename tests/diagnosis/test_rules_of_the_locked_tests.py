@@ -420,7 +420,7 @@ def test_what_the_locked_tests_bear_out_as_far_as_it_acts_there_and_make_too_lit
     assert found.verdict == "unknown"
     assert found.reason.startswith(
         "a:T_a explains the open tests, and the locked ones as far as what it does there can (error there, with a free "
-        "offset a test, 1.00 -> 0.950 um), but they make it "
+        "offset a test, 1.00 -> 0.95 um), but they make it "
     )
     assert "limit" in found.reason
 
