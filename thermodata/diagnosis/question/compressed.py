@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.known_effects import otherwise, remembered
-from thermodata.diagnosis.question.problem import Base, Problem, build_problem
+from thermodata.diagnosis.question.problem import Base, Explained, Problem, build_problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.view.grid.dataset import Dataset, TestData
 
@@ -19,9 +19,7 @@ def compressed(
     fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], rows: int, base: Base | None = None
 ) -> Problem:
     """rows: of all tests together, at most. base: the model's columns, where they are made."""
-    return build_problem(
-        data,
-        tests,
+    explained = Explained(
         fitted.name,
         data.channels[fitted.name].unit,
         measured=fitted.measured,
@@ -29,8 +27,8 @@ def compressed(
         mask=fitted.mask,
         base=remembered(fitted) if base is None else base,
         slack=lambda test: otherwise(fitted, test),
-        rows=rows,
     )
+    return build_problem(explained, tests, data.step_s, rows)
 
 
 def error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
