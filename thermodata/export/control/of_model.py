@@ -79,8 +79,8 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
     name = asked.name or f"{fitted.spec.name}_{response.name}"
     cycles = max(1, round(data.step_s / asked.cycle_s))
     start = Start(cycles, most_bins(cycles * asked.cycle_s))
-    bands = _bands(kept, data)
-    return build(name, response.name, response.unit, kept, inputs, asked.cycle_s, limits, about, start, bands)
+    blank = Program(name, response.name, response.unit, asked.cycle_s, limits, tuple(about), start)
+    return build(blank, kept, inputs, _bands(kept, data))
 
 
 def find_response(fitted: FittedModel, name: str | None) -> FittedResponse:
