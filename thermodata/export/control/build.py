@@ -118,6 +118,7 @@ class _Maker:
             where=where,
             expected="a number, or a choice between two",
             got=written(tau),
+            hint="leave the effect out with --without",
         )
 
     def _rate(self, tau_s: float) -> Rate:

@@ -151,7 +151,11 @@ def _limits(response: FittedResponse, terms: Sequence[TermLaw], data: Dataset, a
     rate = asked.rate if asked.rate is not None else _rounded_up(2.0 * fastest or 10.0)
     for name, value in (("--limit", limit), ("--rate", rate), ("--hold", asked.hold_s)):
         if not (math.isfinite(value) and value > 0):
-            raise UsageError(f"{name} is larger than 0", got=f"{value:g}")
+            raise UsageError(
+                f"{name} is larger than 0",
+                got=f"{value:g}",
+                hint="leave it out for what the tests say",
+            )
     return Limits(limit, rate, asked.hold_s)
 
 

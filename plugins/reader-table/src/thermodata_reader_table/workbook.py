@@ -60,16 +60,33 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
     try:
         book = python_calamine.CalamineWorkbook.from_path(str(path))
     except Exception as error:  # calamine has many error classes, all of which mean: not this file
-        raise FormatError("not a readable workbook", where=path.name, got=str(error)) from None
+        raise FormatError(
+            "not a readable workbook",
+            where=path.name,
+            got=str(error),
+            hint="open and save it in Excel or LibreOffice, or export the sheet as CSV",
+        ) from None
     names = book.sheet_names
     if isinstance(wanted, str):
         if wanted not in names:
-            raise UsageError(f"no sheet '{wanted}'", where=path.name, expected=", ".join(names), got=wanted)
+            raise UsageError(
+                f"no sheet '{wanted}'",
+                where=path.name,
+                expected=", ".join(names),
+                got=wanted,
+                hint="correct table: {sheet: ...}, or leave it out: every sheet with a table is read",
+            )
         names = [wanted]
     elif wanted is not None:
         number = int(wanted)
         if not 1 <= number <= len(names):
-            raise UsageError(f"no sheet {number}", where=path.name, expected=f"1 to {len(names)}", got=str(number))
+            raise UsageError(
+                f"no sheet {number}",
+                where=path.name,
+                expected=f"1 to {len(names)}",
+                got=str(number),
+                hint="sheets count from 1; or give the name",
+            )
         names = [names[number - 1]]
     sheets: dict[str, list[list[Any]]] = {}
     for sheet in names:
@@ -91,6 +108,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             f"sheet '{names[0]}' is empty" if names else "a workbook without sheets",
             where=path.name,
             expected="a table",
+            hint="name another sheet: table: {sheet: NAME}",
         )
     return Book(sheets, odd, percent_columns(path), counts_from_1904(path))
 
