@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.diagnosis.question.known_effects import otherwise, remembered
 from thermodata.diagnosis.question.problem import Base, Explained, Problem, build_problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.terms.rms import rms_about_means
 from thermodata.view.grid.dataset import Dataset, TestData
 
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
@@ -34,5 +35,4 @@ def compressed(
 def error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
     """RMS residual over what counts, a free offset for each test."""
     parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
-    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
-    return float(np.sqrt(np.mean(whole**2)))
+    return rms_about_means([p for p in parts if len(p)] or [np.zeros(1)])
