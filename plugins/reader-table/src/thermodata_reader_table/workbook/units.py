@@ -11,7 +11,7 @@ from thermodata.reader.signals.interleaved import words_of
 from thermodata.reader.signals.row_units import UNIT_OF, in_unit
 from thermodata.reader.text.names.unit_column import lost_for_unit
 from thermodata.reader.typed_columns import unit_in_rows
-from thermodata_reader_table.workbook_sheet import Stream
+from thermodata_reader_table.workbook.sheet import Stream
 
 
 def in_one_unit(stream: Stream, where: str) -> tuple[Stream, list[str], list[Loss]]:

@@ -25,10 +25,10 @@ from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
-from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns
-from thermodata_reader_table.workbook_related import with_related
-from thermodata_reader_table.workbook_series import taken_apart
-from thermodata_reader_table.workbook_sheet import Stream, Table
+from thermodata_reader_table.workbook.percent import counts_from_1904, percent_columns
+from thermodata_reader_table.workbook.related import with_related
+from thermodata_reader_table.workbook.series import taken_apart
+from thermodata_reader_table.workbook.sheet import Stream, Table
 
 _BLOCK_VALUES = 1_000_000
 _SMALL = 8_000_000

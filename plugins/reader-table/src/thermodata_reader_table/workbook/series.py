@@ -9,8 +9,8 @@ from thermodata.plugin import Block, Loss
 from thermodata.reader.signals.series import SERIES, Called, Declaration, find_series
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
-from thermodata_reader_table.workbook_sheet import Stream
-from thermodata_reader_table.workbook_units import in_one_unit
+from thermodata_reader_table.workbook.sheet import Stream
+from thermodata_reader_table.workbook.units import in_one_unit
 
 
 def taken_apart(

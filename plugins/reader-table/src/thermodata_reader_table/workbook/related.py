@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Array
 from thermodata.reader.times.zone import NAT
 from thermodata.reader.typed_columns import Related, Relating, related
-from thermodata_reader_table.workbook_sheet import Stream
+from thermodata_reader_table.workbook.sheet import Stream
 
 
 def with_related(

@@ -40,10 +40,10 @@ from thermodata.reader.times.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted
-from thermodata_reader_table.workbook_cells import joined, joined_words, part_of_date, seconds_of
-from thermodata_reader_table.workbook_days import local_times
-from thermodata_reader_table.workbook_start import Heads, begun
-from thermodata_reader_table.workbook_swapped import swapped_times
+from thermodata_reader_table.workbook.cells import joined, joined_words, part_of_date, seconds_of
+from thermodata_reader_table.workbook.days import local_times
+from thermodata_reader_table.workbook.start import Heads, begun
+from thermodata_reader_table.workbook.swapped import swapped_times
 
 
 @dataclass
