@@ -8,11 +8,11 @@ from threading import Lock
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata_reader_crio.tdms.channels import channels
-from thermodata_reader_crio.tdms.one_group import columns_of, without_its_name
-from thermodata_reader_crio.tdms.raw_columns import columns
-from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.segments import read_index
+from thermodata_reader_crio.tdms.channels.channel import channels
+from thermodata_reader_crio.tdms.channels.one_group import columns_of, without_its_name
+from thermodata_reader_crio.tdms.raw.columns import columns
+from thermodata_reader_crio.tdms.segments.index import Index
+from thermodata_reader_crio.tdms.segments.read_index import read_index
 from thermodata_reader_crio.tdms.streams import Stream, StreamMaker
 
 _KEPT: dict[tuple[object, ...], File] = {}

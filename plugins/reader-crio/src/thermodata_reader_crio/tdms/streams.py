@@ -9,13 +9,13 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D, Int1D, Source
-from thermodata_reader_crio.tdms.channel_clock import counted_clock
-from thermodata_reader_crio.tdms.channels import Channel
-from thermodata_reader_crio.tdms.date_and_time import date_and_time
-from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.time_channel import TimeChannel, time_channel, time_channels
-from thermodata_reader_crio.tdms.waveform_clock import Clock, runs_over
-from thermodata_reader_crio.tdms.weeks_of_gps import weeks_of_gps
+from thermodata_reader_crio.tdms.channels.channel import Channel
+from thermodata_reader_crio.tdms.channels.channel_clock import counted_clock
+from thermodata_reader_crio.tdms.channels.waveform_clock import Clock, runs_over
+from thermodata_reader_crio.tdms.segments.index import Index
+from thermodata_reader_crio.tdms.times.date_and_time import date_and_time
+from thermodata_reader_crio.tdms.times.time_channel import TimeChannel, time_channel, time_channels
+from thermodata_reader_crio.tdms.times.weeks_of_gps import weeks_of_gps
 
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 

@@ -13,8 +13,8 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata_reader_crio.tdms.raw_columns import TEXT, Column, Kind
-from thermodata_reader_crio.tdms.raw_text import read_words
+from thermodata_reader_crio.tdms.raw.columns import TEXT, Column, Kind
+from thermodata_reader_crio.tdms.raw.text import read_words
 
 _GAP_BYTES = 16 * 1024  # a hole up to this size is cheaper to read over than to seek over
 _LONG_RUN_BYTES = 32 * 1024  # a run from this size on is read straight into its place

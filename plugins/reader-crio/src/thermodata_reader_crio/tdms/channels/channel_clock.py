@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from thermodata_reader_crio.tdms.raw_columns import Column
-from thermodata_reader_crio.tdms.segment_index import CLOCK, Hole, Index
-from thermodata_reader_crio.tdms.waveform_clock import Clock, Waveform, counted, waveform
+from thermodata_reader_crio.tdms.channels.waveform_clock import Clock, Waveform, counted, waveform
+from thermodata_reader_crio.tdms.raw.columns import Column
+from thermodata_reader_crio.tdms.segments.index import CLOCK, Hole, Index
 
 
 class _ClockPieces:

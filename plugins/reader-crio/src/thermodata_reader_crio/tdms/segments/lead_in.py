@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from thermodata_reader_crio.tdms.chunk_layout import DamageError
+from thermodata_reader_crio.tdms.segments.chunk_layout import DamageError
 
 LEAD_IN = 28
 META, NEW_LIST, RAW, INTERLEAVED, BIG_ENDIAN = 1 << 1, 1 << 2, 1 << 3, 1 << 5, 1 << 6

@@ -22,8 +22,8 @@ from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, know
 from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
-from thermodata_reader_crio.tdms.channels import Channel
-from thermodata_reader_crio.tdms.raw_values import read
+from thermodata_reader_crio.tdms.channels.channel import Channel
+from thermodata_reader_crio.tdms.raw.values import read
 
 # "t" is a time, "T" a temperature
 _TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|time ?stamp|elapsed( time)?|x_?value|uhrzeit|时间|時間))$")

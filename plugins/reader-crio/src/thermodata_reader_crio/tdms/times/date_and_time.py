@@ -13,9 +13,9 @@ from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.times.in_memory import times_of_pairs
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata_reader_crio.tdms.channels import Channel
-from thermodata_reader_crio.tdms.raw_values import read
-from thermodata_reader_crio.tdms.time_channel import TimeChannel
+from thermodata_reader_crio.tdms.channels.channel import Channel
+from thermodata_reader_crio.tdms.raw.values import read
+from thermodata_reader_crio.tdms.times.time_channel import TimeChannel
 
 _LOOKED_AT = 100  # rows
 

@@ -7,7 +7,7 @@ from typing import BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata_reader_crio.tdms.raw_columns import Column
+from thermodata_reader_crio.tdms.raw.columns import Column
 
 _PART = 50_000  # texts at once
 _PART_BYTES = 8 << 20  # and their bytes

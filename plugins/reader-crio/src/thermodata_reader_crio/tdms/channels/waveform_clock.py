@@ -15,7 +15,7 @@ from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.times.time_units import SECONDS
 from thermodata.schema.units.quantity import converts, is_unit
 from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
-from thermodata_reader_crio.tdms.metadata import Timestamp
+from thermodata_reader_crio.tdms.segments.metadata import Timestamp
 
 _FREQUENCY = ("freq", "frekvenc", "fréq")  # the beginnings of its names, as LabVIEW calls the x of a spectrum
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from thermodata_reader_crio.tdms.chunk_layout import Layout
+from thermodata_reader_crio.tdms.segments.chunk_layout import Layout
 
 CLOCK = ("wf_start_time", "wf_start_offset", "wf_increment", "wf_xunit_string", "wf_xname")
 

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata_reader_crio.tdms.chunk_layout import NUMPY, STRING, Layout
-from thermodata_reader_crio.tdms.segment_index import Index, Shape
+from thermodata_reader_crio.tdms.segments.chunk_layout import NUMPY, STRING, Layout
+from thermodata_reader_crio.tdms.segments.index import Index, Shape
 
 TEXT = "str"
 

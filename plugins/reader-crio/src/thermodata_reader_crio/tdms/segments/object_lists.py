@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO, NamedTuple
 
-from thermodata_reader_crio.tdms.chunk_layout import DamageError, Layout, RawIndex, check
-from thermodata_reader_crio.tdms.lead_in import BIG_ENDIAN, INTERLEAVED, META, NEW_LIST, LeadIn, read_metadata
-from thermodata_reader_crio.tdms.metadata import SAME, Object, Properties, parse
-from thermodata_reader_crio.tdms.segment_index import CLOCK, ClockChange, Index
+from thermodata_reader_crio.tdms.segments.chunk_layout import DamageError, Layout, RawIndex, check
+from thermodata_reader_crio.tdms.segments.index import CLOCK, ClockChange, Index
+from thermodata_reader_crio.tdms.segments.lead_in import BIG_ENDIAN, INTERLEAVED, META, NEW_LIST, LeadIn, read_metadata
+from thermodata_reader_crio.tdms.segments.metadata import SAME, Object, Properties, parse
 
 # what says which values the numbers stand for
 _MEANING = ("NI_Scal", "NI_Number_Of_Scales", "unit_string", "NI_UnitDescription")

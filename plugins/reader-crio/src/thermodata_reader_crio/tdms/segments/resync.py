@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import BinaryIO, NamedTuple
 
-from thermodata_reader_crio.tdms.chunk_layout import DamageError
-from thermodata_reader_crio.tdms.lead_in import META, NEW_LIST, VERSIONS, LeadIn, read_lead_in, read_metadata
-from thermodata_reader_crio.tdms.metadata import SAME, Object, parse
-from thermodata_reader_crio.tdms.segment_index import Index
+from thermodata_reader_crio.tdms.segments.chunk_layout import DamageError
+from thermodata_reader_crio.tdms.segments.index import Index
+from thermodata_reader_crio.tdms.segments.lead_in import META, NEW_LIST, VERSIONS, LeadIn, read_lead_in, read_metadata
+from thermodata_reader_crio.tdms.segments.metadata import SAME, Object, parse
 
 _TAG = b"TDSm"
 _WINDOW = 1 << 20

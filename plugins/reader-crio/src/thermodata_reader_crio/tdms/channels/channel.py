@@ -13,11 +13,11 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Signal
 from thermodata.reader.text.preamble.scale_words import stated_of
-from thermodata_reader_crio.tdms.channel_clock import clock_of
-from thermodata_reader_crio.tdms.chunk_layout import BOOL
-from thermodata_reader_crio.tdms.raw_columns import TEXT, Column
-from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.waveform_clock import Clock
+from thermodata_reader_crio.tdms.channels.channel_clock import clock_of
+from thermodata_reader_crio.tdms.channels.waveform_clock import Clock
+from thermodata_reader_crio.tdms.raw.columns import TEXT, Column
+from thermodata_reader_crio.tdms.segments.chunk_layout import BOOL
+from thermodata_reader_crio.tdms.segments.index import Index
 
 KNOWN_SCALES = (
     "Linear",

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from thermodata_reader_crio.tdms.chunk_layout import (
+from thermodata_reader_crio.tdms.segments.chunk_layout import (
     DAQMX_NUMPY,
     MOST,
     NUMPY,

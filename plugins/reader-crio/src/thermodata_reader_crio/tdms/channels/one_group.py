@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from thermodata.errors import UsageError, nearest
-from thermodata_reader_crio.tdms.channels import Channel, names
-from thermodata_reader_crio.tdms.raw_columns import Column
+from thermodata_reader_crio.tdms.channels.channel import Channel, names
+from thermodata_reader_crio.tdms.raw.columns import Column
 
 _MOST_NAMES = 30
 

@@ -9,11 +9,19 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata_reader_crio.tdms.chunk_layout import DamageError
-from thermodata_reader_crio.tdms.lead_in import INTERLEAVED, META, RAW, VERSIONS, LeadIn, open_file, read_lead_in
-from thermodata_reader_crio.tdms.object_lists import ObjectLists
-from thermodata_reader_crio.tdms.resync import Found, GoodSegment, find
-from thermodata_reader_crio.tdms.segment_index import Hole, Index, Shape
+from thermodata_reader_crio.tdms.segments.chunk_layout import DamageError
+from thermodata_reader_crio.tdms.segments.index import Hole, Index, Shape
+from thermodata_reader_crio.tdms.segments.lead_in import (
+    INTERLEAVED,
+    META,
+    RAW,
+    VERSIONS,
+    LeadIn,
+    open_file,
+    read_lead_in,
+)
+from thermodata_reader_crio.tdms.segments.object_lists import ObjectLists
+from thermodata_reader_crio.tdms.segments.resync import Found, GoodSegment, find
 
 _MOST_HOLES = 1000
 
