@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from thermodata.virtual.catalogue import EFFECTS, drivers_of, family_of
-from thermodata.virtual.logbook import DWELL_S, MOVES_UM, Logbook, describe_probe
-from thermodata.virtual.plan import AXES, Operation
-from thermodata.virtual.world import World
-from thermodata.virtual.write_nc import ZONE
+from thermodata.virtual.gantry.catalogue import EFFECTS, drivers_of, family_of
+from thermodata.virtual.gantry.logs.logbook import DWELL_S, MOVES_UM, Logbook, describe_probe
+from thermodata.virtual.gantry.logs.nc import ZONE
+from thermodata.virtual.gantry.plan import AXES, Operation
+from thermodata.virtual.gantry.world import World
 
 
 def campaign_file(world: World, book: Logbook) -> dict[str, Any]:

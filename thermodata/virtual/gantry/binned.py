@@ -9,8 +9,8 @@ from thermodata.schema.files.model import Model
 from thermodata.schema.units.quantity import value_in
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.described import described
-from thermodata.virtual.plan import AXES, STEP_S
-from thermodata.virtual.world import Run, World, make_world
+from thermodata.virtual.gantry.plan import AXES, STEP_S
+from thermodata.virtual.gantry.world import Run, World, make_world
 
 
 def dataset(

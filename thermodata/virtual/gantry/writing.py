@@ -12,14 +12,14 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.store.base.counting import counted
-from thermodata.virtual.describe import campaign_file, model_file, truth_file
-from thermodata.virtual.logbook import Logbook
+from thermodata.virtual.gantry.logs.describe import campaign_file, model_file, truth_file
+from thermodata.virtual.gantry.logs.logbook import Logbook
+from thermodata.virtual.gantry.logs.mcap import write_mcap
+from thermodata.virtual.gantry.logs.nc import write_nc
+from thermodata.virtual.gantry.logs.tdms import write_jump, write_test
+from thermodata.virtual.gantry.plan import AXES
+from thermodata.virtual.gantry.world import Run, World, make_world
 from thermodata.virtual.new_folder import without_a_campaign
-from thermodata.virtual.plan import AXES
-from thermodata.virtual.world import Run, World, make_world
-from thermodata.virtual.write_mcap import write_mcap
-from thermodata.virtual.write_nc import write_nc
-from thermodata.virtual.write_tdms import write_jump, write_test
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.plan import STEP_S, Operation
+from thermodata.virtual.gantry.plan import STEP_S, Operation
 
 BOUNDARIES = ("hall.bottom", "hall.middle", "hall.top", "floor", "fluid")
 

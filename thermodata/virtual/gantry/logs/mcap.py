@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 from thermodata.errors import UsageError
-from thermodata.virtual.logbook import Logbook
-from thermodata.virtual.plan import STEP_S
-from thermodata.virtual.world import Run, World
+from thermodata.virtual.gantry.logs.logbook import Logbook
+from thermodata.virtual.gantry.plan import STEP_S
+from thermodata.virtual.gantry.world import Run, World
 
 TOPIC = "/hall/air"
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.logbook import Logbook
-from thermodata.virtual.plan import STEP_S
-from thermodata.virtual.world import Run, World
+from thermodata.virtual.gantry.logs.logbook import Logbook
+from thermodata.virtual.gantry.plan import STEP_S
+from thermodata.virtual.gantry.world import Run, World
 
 ZONE = "Europe/Prague"
 _UNITS = {"rpm": "1/min", "degC": "°C", "1": "-"}

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.losses import COPPER, VISCOUS, source_powers
-from thermodata.virtual.machine import Machine
-from thermodata.virtual.network import Stepper
-from thermodata.virtual.plan import STEP_S, Operation
+from thermodata.virtual.gantry.heat.losses import COPPER, VISCOUS, source_powers
+from thermodata.virtual.gantry.heat.machine import Machine
+from thermodata.virtual.gantry.heat.network import Stepper
+from thermodata.virtual.gantry.plan import STEP_S, Operation
 
 REFERENCE = 20.0
 SOAK_STEPS = 540  # an hour and a half at rest before each test

@@ -13,15 +13,15 @@ import numpy as np
 from thermodata.errors import unknown_name
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import EffectSpec
-from thermodata.virtual.as_drawn import as_drawn, thinly
-from thermodata.virtual.binned import to_dataset
-from thermodata.virtual.catalogue import EFFECTS, drivers_of
-from thermodata.virtual.plan import STEP_S
-from thermodata.virtual.right_names import names_of
+from thermodata.virtual.gantry.as_drawn import as_drawn, thinly
+from thermodata.virtual.gantry.binned import to_dataset
+from thermodata.virtual.gantry.catalogue import EFFECTS, drivers_of
+from thermodata.virtual.gantry.plan import STEP_S
+from thermodata.virtual.gantry.right_names import names_of
+from thermodata.virtual.gantry.world import Run, World, all_but_the_hidden_one, make_world
 from thermodata.virtual.truth.case import Case
 from thermodata.virtual.truth.marking import Key
 from thermodata.virtual.truth.strata import Stratum
-from thermodata.virtual.world import Run, World, all_but_the_hidden_one, make_world
 
 NONE = "none"
 NOT_LOGGED = ", not logged"

@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.hall import smooth
-from thermodata.virtual.plan import AXES
+from thermodata.virtual.gantry.heat.hall import smooth
+from thermodata.virtual.gantry.plan import AXES
 
 SourceName = Literal["daq", "nc", "rec"]
 

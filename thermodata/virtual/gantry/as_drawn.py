@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.virtual.levers import Levers, Units, lever, present, spread
-from thermodata.virtual.plan import Operation
+from thermodata.virtual.gantry.levers import Levers, Units, lever, present, spread
+from thermodata.virtual.gantry.plan import Operation
 
 SIZE_UM = (3.0, 12.0)  # [um] standard deviation in its best open test, of every effect
 MOST_LOCKED = 3.0  # times as large as there, and no effect is larger in a locked test

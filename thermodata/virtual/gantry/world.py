@@ -16,14 +16,14 @@ import numpy as np
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.files.model import Model
-from thermodata.virtual.catalogue import EFFECTS, drivers_of
-from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
-from thermodata.virtual.levers import Levers, Units, draw_levers
-from thermodata.virtual.losses import spindle_power
-from thermodata.virtual.machine import Machine, build
-from thermodata.virtual.plan import AXES, MAX_SPEED, Operation, make_plan
-from thermodata.virtual.sensors import Sensor, make_sensors
-from thermodata.virtual.thermal import run
+from thermodata.virtual.gantry.catalogue import EFFECTS, drivers_of
+from thermodata.virtual.gantry.heat.hall import BOUNDARIES, Hall, air, smooth
+from thermodata.virtual.gantry.heat.losses import spindle_power
+from thermodata.virtual.gantry.heat.machine import Machine, build
+from thermodata.virtual.gantry.heat.sensors import Sensor, make_sensors
+from thermodata.virtual.gantry.heat.thermal import run
+from thermodata.virtual.gantry.levers import Levers, Units, draw_levers
+from thermodata.virtual.gantry.plan import AXES, MAX_SPEED, Operation, make_plan
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from thermodata.virtual.catalogue import EFFECTS, drivers_of, family_of
-from thermodata.virtual.sensors import Sensor
+from thermodata.virtual.gantry.catalogue import EFFECTS, drivers_of, family_of
+from thermodata.virtual.gantry.heat.sensors import Sensor
 from thermodata.virtual.truth.names import Names, right
 
 # other bindings of the same effect, to channels of the same body or of the power that heats it; {A}: of the response

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.signal import lfilter
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.catalogue import EFFECTS
-from thermodata.virtual.plan import STEP_S, Operation
+from thermodata.virtual.gantry.catalogue import EFFECTS
+from thermodata.virtual.gantry.plan import STEP_S, Operation
 
 Units = Sequence[Mapping[str, Float1D]]  # of each test, effect -> its course at lever 1, shape (n,) [um]
 Levers = dict[str, Float1D]  # effect -> along X, Y, Z, shape (3,)

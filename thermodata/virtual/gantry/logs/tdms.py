@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.logbook import DWELL_S, MOVES_UM, PROBE_RANGE_V, Logbook
-from thermodata.virtual.plan import STEP_S
-from thermodata.virtual.world import Run, World
+from thermodata.virtual.gantry.logs.logbook import DWELL_S, MOVES_UM, PROBE_RANGE_V, Logbook
+from thermodata.virtual.gantry.plan import STEP_S
+from thermodata.virtual.gantry.world import Run, World
 
 JUMP_RATE_HZ = 10.0
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.hall import BOUNDARIES
-from thermodata.virtual.network import Builder, Cells, Network
+from thermodata.virtual.gantry.heat.hall import BOUNDARIES
+from thermodata.virtual.gantry.heat.network import Builder, Cells, Network
 
 ALPHA_UM = 11.5  # steel [um/m/K]
 RHO_C, CONDUCTIVITY = 3.69e6, 46.0  # steel [J/m3/K], [W/m/K]

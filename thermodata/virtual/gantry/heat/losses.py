@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.machine import SCREW_CELLS, Machine
-from thermodata.virtual.plan import MAX_SPEED, Operation
+from thermodata.virtual.gantry.heat.machine import SCREW_CELLS, Machine
+from thermodata.virtual.gantry.plan import MAX_SPEED, Operation
 
 VISCOUS = ("bearing_front", "bearing_rear", "sleeve")  # losses that fall as the lubricant warms
 COPPER = ("motor",)  # losses that rise with the winding's resistance

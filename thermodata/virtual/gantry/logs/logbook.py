@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.plan import AXES
-from thermodata.virtual.world import World
+from thermodata.virtual.gantry.plan import AXES
+from thermodata.virtual.gantry.world import World
 
 PROBE_RANGE_V = 20.0
 MOVES_UM = (100.0, 50.0, -200.0, -50.0, 100.0)  # unequal, so that they can't be read with either sign
