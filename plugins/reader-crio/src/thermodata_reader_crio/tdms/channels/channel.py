@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -48,7 +48,7 @@ class Channel:
 
     def in_stream(self, name: str) -> Channel:
         """The same channel, of a stream."""
-        s = self.signal
+        s = self.signal  # not `replace`, which takes its time with 100,000 channels
         signal = Signal(s.name, name, s.unit, s.dtype, s.scaling, s.properties)
         return Channel(signal, self.short, self.columns, self.clock, self.joined_by)
 
@@ -160,43 +160,51 @@ class _Maker:
         self._above: dict[str, dict[str, dict[str, str]]] = {}
 
     def channels(self, group: str, short: str, full: str, found: list[Column], kind: int) -> list[Channel]:
-        """The channels of one object of the file: one, or the two parts of complex numbers."""
-        notes = self.notes
-        own = self._index.properties.get(found[0].path, _NONE)
-        clock = clock_of(self._index, found[0], own, self._clocks)
-        if clock is not None and not _ends(clock, max(found[0].length, found[0].planned), self._ended):
-            notes.append(
-                f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time"
-            )
-            clock = None
-        unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
-        unit = str(unit) if unit else None
+        """The channels of one object of the file: one, or the two parts of complex numbers. FormatError for raw numbers
+        that nothing joins."""
+        first, own = found[0], self._index.properties.get(found[0].path, _NONE)
+        clock = self._clock(full, first, own)
         scale = None if full in self._unscaled or short in self._unscaled else self._scaling(group, full, own)
         stated = self._stated(group, short)
         properties = {**stated, **self._text(own)} if stated else self._text(own)
-        if found[0].part in ("re", "im"):
-            notes.append(f"{full}: complex numbers, delivered as two signals")
-            return [_channel(f"{full} ({c.part})", short, [c], scale, unit, properties, clock) for c in found]
-        if len(found[0].kinds) > 1 and len({k.dtype for c in found for k in c.kinds}) > len(found):
-            notes.append(f"{full}: its type changes within the file; delivered as {found[0].dtype}")
+        signal = Signal(full, "", _unit(own), _dtype(first, kind), scale, properties)
+        if first.part in ("re", "im"):
+            self.notes.append(f"{full}: complex numbers, delivered as two signals")
+            parts = (replace(signal, name=f"{full} ({c.part})", dtype=_dtype(c, kind)) for c in found)
+            return [Channel(part, short, (c,), clock) for part, c in zip(parts, found, strict=True)]
+        if len(first.kinds) > 1 and len({k.dtype for c in found for k in c.kinds}) > len(found):
+            self.notes.append(f"{full}: its type changes within the file; delivered as {first.dtype}")
         if len(found) > 1:
-            if scale is None:
-                raise FormatError(
-                    "a DAQmx channel of several raw numbers without a scaling that joins them",
-                    where=f"{self._file} {full}",
-                    hint="leave it out, or read its raw numbers with NI's tools",
-                )
-            notes.append(
-                f"{full}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
-                "say), so it is delivered scaled by the file's own formula"
-            )
-            scaled = {**properties, "scaled_by_reader": f"{len(found)} raw inputs"}
-            return [_channel(full, short, found, None, unit, scaled, clock, "float64", scale)]
-        if found[0].dtype == "V16":
+            return [Channel(self._joined(signal, found), short, tuple(found), clock, scale)]
+        if first.dtype == "V16":
             stamped = {**properties, "kind": "timestamp"}
-            return [_channel(full, short, found, None, unit or "ns", stamped, clock, "int64")]
-        dtype = "bool" if kind == BOOL and found[0].dtype == "u1" else None
-        return [_channel(full, short, found, scale, unit, properties, clock, dtype)]
+            signal = replace(signal, unit=signal.unit or "ns", dtype="int64", scaling=None, properties=stamped)
+        return [Channel(signal, short, (first,), clock)]
+
+    def _clock(self, full: str, column: Column, own: Mapping[str, Any]) -> Clock | None:
+        """What a channel's own properties say of its time; None where that is beyond any date."""
+        clock = clock_of(self._index, column, own, self._clocks)
+        if clock is None or _ends(clock, max(column.length, column.planned), self._ended):
+            return clock
+        self.notes.append(
+            f"{full}: its wf_increment of {own['wf_increment']} s ends beyond any date; not used as its time"
+        )
+        return None
+
+    def _joined(self, signal: Signal, found: Sequence[Column]) -> Signal:
+        """A signal that its scaling makes of several raw numbers. FormatError without one."""
+        if signal.scaling is None:
+            raise FormatError(
+                "a DAQmx channel of several raw numbers without a scaling that joins them",
+                where=f"{self._file} {signal.name}",
+                hint="leave it out, or read its raw numbers with NI's tools",
+            )
+        self.notes.append(
+            f"{signal.name}: its scaling joins {len(found)} raw numbers (a thermocouple and its cold junction, "
+            "say), so it is delivered scaled by the file's own formula"
+        )
+        scaled = {**signal.properties, "scaled_by_reader": f"{len(found)} raw inputs"}
+        return replace(signal, dtype="float64", scaling=None, properties=scaled)
 
     def _text(self, own: Mapping[str, Any]) -> dict[str, str]:
         """Properties as a signal has them. The index keeps what it is asked by, so that its id stays its own."""
@@ -242,20 +250,16 @@ def _ends(clock: Clock, rows: int, ended: dict[tuple[int, int], bool]) -> bool:
     return ended[key]
 
 
-def _channel(
-    full: str,
-    short: str,
-    found: list[Column],
-    scale: Scaling | None,
-    unit: str | None,
-    properties: Mapping[str, str],
-    clock: Clock | None,
-    dtype: str | None = None,
-    joined_by: Scaling | None = None,
-) -> Channel:
-    if dtype is None:
-        dtype = "str" if found[0].dtype == TEXT else _name(found[0].dtype)
-    return Channel(Signal(full, "", unit, dtype, scale, properties), short, tuple(found), clock, joined_by)
+def _unit(own: Mapping[str, Any]) -> str | None:
+    unit = own.get("unit_string") or own.get("NI_UnitDescription")
+    return str(unit) if unit else None
+
+
+def _dtype(column: Column, kind: int) -> str:
+    """Of the values as they are delivered. kind: as the file has it."""
+    if kind == BOOL and column.dtype == "u1":
+        return "bool"
+    return "str" if column.dtype == TEXT else _name(column.dtype)
 
 
 @lru_cache(maxsize=64)
