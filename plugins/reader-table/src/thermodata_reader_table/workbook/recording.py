@@ -66,43 +66,8 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             got=str(error),
             hint="open and save it in Excel or LibreOffice, or export the sheet as CSV",
         ) from None
-    names = book.sheet_names
-    if isinstance(wanted, str):
-        if wanted not in names:
-            raise UsageError(
-                f"no sheet '{wanted}'",
-                where=path.name,
-                expected=", ".join(names),
-                got=wanted,
-                hint="correct table: {sheet: ...}, or leave it out: every sheet with a table is read",
-            )
-        names = [wanted]
-    elif wanted is not None:
-        number = int(wanted)
-        if not 1 <= number <= len(names):
-            raise UsageError(
-                f"no sheet {number}",
-                where=path.name,
-                expected=f"1 to {len(names)}",
-                got=str(number),
-                hint="sheets count from 1; or give the name",
-            )
-        names = [names[number - 1]]
-    sheets: dict[str, list[list[Any]]] = {}
-    for sheet in names:
-        try:
-            rows = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
-        except Exception as error:
-            raise FormatError(
-                f"sheet '{sheet}' cannot be read",
-                where=path.name,
-                got=str(error),
-                hint="declare table: {sheet: ...} to read another one alone",
-            ) from None
-        while rows and not any(c not in ("", None) for c in rows[-1]):
-            rows.pop()
-        if rows:
-            sheets[sheet] = rows
+    names = _asked(book.sheet_names, wanted, path.name)
+    sheets = {sheet: rows for sheet in names if (rows := _rows(book, sheet, path.name))}
     if not sheets:
         raise FormatError(
             f"sheet '{names[0]}' is empty" if names else "a workbook without sheets",
@@ -111,6 +76,49 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             hint="name another sheet: table: {sheet: NAME}",
         )
     return Book(sheets, odd, percent_columns(path), counts_from_1904(path))
+
+
+def _asked(names: Sequence[str], wanted: int | str | None, where: str) -> Sequence[str]:
+    """The sheets that a source is read from: the one that it declares, by its name or its number from 1, or all.
+    UsageError where there is none such."""
+    if wanted is None:
+        return names
+    if isinstance(wanted, str):
+        if wanted not in names:
+            raise UsageError(
+                f"no sheet '{wanted}'",
+                where=where,
+                expected=", ".join(names),
+                got=wanted,
+                hint="correct table: {sheet: ...}, or leave it out: every sheet with a table is read",
+            )
+        return [wanted]
+    number = int(wanted)
+    if not 1 <= number <= len(names):
+        raise UsageError(
+            f"no sheet {number}",
+            where=where,
+            expected=f"1 to {len(names)}",
+            got=str(number),
+            hint="sheets count from 1; or give the name",
+        )
+    return [names[number - 1]]
+
+
+def _rows(book: Any, sheet: str, where: str) -> list[list[Any]]:
+    """The rows of a sheet, down to the last that holds something. book: calamine's."""
+    try:
+        rows: list[list[Any]] = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
+    except Exception as error:
+        raise FormatError(
+            f"sheet '{sheet}' cannot be read",
+            where=where,
+            got=str(error),
+            hint="declare table: {sheet: ...} to read another one alone",
+        ) from None
+    while rows and not any(c not in ("", None) for c in rows[-1]):
+        rows.pop()
+    return rows
 
 
 _kept = lru_cache(maxsize=1)(_load)
