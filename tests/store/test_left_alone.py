@@ -404,7 +404,7 @@ def test_a_commit_that_comes_between_is_noticed(
     store: Store, lab: Path, looked: Looked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Somebody forgets a test while this ingest looks at another one."""
-    from thermodata.store.keep.lifecycle import forget
+    from thermodata.store.keep.forget import forget
 
     ingest(store, lab)
     longer(lab.parent / "raw")

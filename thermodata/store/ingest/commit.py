@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.connection import insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.known.files_taken_out import keep_files
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
@@ -155,16 +155,3 @@ def _replace_campaign(con: duckdb.DuckDBPyConnection, planned: Planned, now: dat
         "data_version": planned.data_version(),
     }
     insert(con, "campaign", [row])
-
-
-def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are forgotten, wherever it stands; that their locks were opened
-    stays."""
-    for table in ("prediction", "score_row", "finding") if tests else ():
-        con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
-    for row in fetch(con, "select model, result from model where list_contains(campaigns, ?)", [campaign]):
-        result = json.loads(row["result"])
-        for scored in ("scores", "before"):
-            if result.get(scored):
-                result[scored] = [s for s in result[scored] if s["campaign"] != campaign or s["test"] not in tests]
-        con.execute("update model set result = ? where model = ?", [json.dumps(result), row["model"]])
