@@ -115,6 +115,10 @@ class RailError(CalibrationError):
 class PluginError(ThermodataError):
     """A plugin broke its contract (its bug, not the data's)."""
 
+    def __init__(self, what: str, **more: Any) -> None:
+        more.setdefault("hint", "a fault of the plugin, not of the data: tell its author ('thermodata plugins')")
+        super().__init__(what, **more)
+
 
 class EffectError(PluginError):
     """An effect broke its contract. effect: its name, by which a search leaves it out; origin: the plugin that brought

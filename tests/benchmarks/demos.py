@@ -45,7 +45,7 @@ def demo(hide: str, seed: int) -> dict[str, Any]:
 def outcome(hide: str, seed: int, result: dict[str, Any]) -> str:
     """Marked as the blind benchmark marks."""
     from thermodata.virtual import make_world
-    from thermodata.virtual.right_names import names_of
+    from thermodata.virtual.gantry.right_names import names_of
 
     if not result["claims"]:
         return "right" if hide == "none" else "abstained"

@@ -23,10 +23,10 @@ from thermodata.diagnosis.sensors import loose
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.grid.dataset import Dataset, TestData
-from thermodata.virtual.binned import to_dataset as gantry
+from thermodata.virtual.gantry.binned import to_dataset as gantry
+from thermodata.virtual.gantry.world import make_world as gantry_world
 from thermodata.virtual.lathe.data import to_dataset as lathe
 from thermodata.virtual.lathe.world import make_world as lathe_world
-from thermodata.virtual.world import make_world as gantry_world
 
 STRATA = ("strong", "none_thin")
 LIMITS = {

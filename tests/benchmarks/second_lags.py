@@ -60,9 +60,9 @@ def on_lathe(strata: Sequence[str], seeds: Sequence[int]) -> Iterator[Case]:
 
 
 def on_library(hidden: Sequence[str], seeds: Sequence[int]) -> Iterator[Case]:
-    from thermodata.virtual.binned import to_dataset
-    from thermodata.virtual.catalogue import drivers_of
-    from thermodata.virtual.world import make_world
+    from thermodata.virtual.gantry.binned import to_dataset
+    from thermodata.virtual.gantry.catalogue import drivers_of
+    from thermodata.virtual.gantry.world import make_world
 
     for seed in seeds:
         for hide in hidden:

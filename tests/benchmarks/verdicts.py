@@ -99,8 +99,8 @@ def diagnosed(case: Case) -> dict[str, Any]:
     from thermodata.diagnosis.verdict import selection
     from thermodata.effect import effects
     from thermodata.modelling.fit.model import fit_model
-    from thermodata.virtual.binned import to_dataset
-    from thermodata.virtual.world import make_world
+    from thermodata.virtual.gantry.binned import to_dataset
+    from thermodata.virtual.gantry.world import make_world
 
     world = make_world(case.hide, case.seed, tests=case.tests, measured=case.logged)
     spec, data = world.baseline(), to_dataset(world, 60.0)

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.question.problem import Problem, build_problem
+from thermodata.diagnosis.question.problem import Explained, Problem, build_problem
 from thermodata.plugin import Float2D
-from thermodata.view.grid.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import TestData
 
 from .hand_made import STEP_S, Parts, a_test, problem
 
@@ -24,9 +24,7 @@ def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any
     def none(test: TestData) -> Float2D:
         return np.zeros((n, 0))
 
-    return build_problem(
-        Dataset(step_s, tuple(tests), {}),
-        tests,
+    explained = Explained(
         "dZ",
         "um",
         measured=lambda t: values,
@@ -34,8 +32,8 @@ def built(counts: Sequence[int], n: int = 600, step_s: float = STEP_S, **of: Any
         mask=lambda t: masks[t.test],
         base=none,
         slack=none,
-        **({"rows": of["rows"]} if "rows" in of else {}),
     )
+    return build_problem(explained, tests, step_s, **({"rows": of["rows"]} if "rows" in of else {}))
 
 
 @pytest.mark.parametrize(("counted", "tests"), [(10, 4), (9, 3)])

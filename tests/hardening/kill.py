@@ -25,7 +25,7 @@ import whole  # noqa: E402
 
 from thermodata.store import Store  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
-from thermodata.store.keep.lifecycle import gc  # noqa: E402
+from thermodata.store.keep.gc import gc  # noqa: E402
 
 
 def started(op: str, store: Path, argument: object) -> subprocess.Popen[str]:

@@ -24,7 +24,7 @@ from thermodata.store import Store  # noqa: E402
 from thermodata.store.catalogue.ddl import FORMAT  # noqa: E402
 from thermodata.store.ingest.reading import campaign_files  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
-from thermodata.store.keep.lifecycle import gc  # noqa: E402
+from thermodata.store.keep.gc import gc  # noqa: E402
 
 Victim = Callable[..., tuple[int, int]]
 NEXT = FORMAT + 1  # which `victim.py` knows a step to

@@ -60,7 +60,7 @@ class Watched:
 
 
 def serve() -> None:
-    for name in ("ingest.run", "keep.lifecycle", "keep.snapshot", "views.regenerate"):
+    for name in ("ingest.run", "keep.forget", "keep.gc", "keep.snapshot", "views.regenerate"):
         importlib.import_module(f"thermodata.store.{name}")
     for line in sys.stdin:
         with tempfile.TemporaryFile() as said:
@@ -100,7 +100,8 @@ def main(words: Sequence[str]) -> None:
     from thermodata.store.base import connection
     from thermodata.store.catalogue import migrate
     from thermodata.store.ingest.run import ingest
-    from thermodata.store.keep import lifecycle
+    from thermodata.store.keep.forget import forget
+    from thermodata.store.keep.gc import gc
     from thermodata.store.keep.snapshot import snapshot
 
     steps = Steps(given.store.absolute().parent, given.die_at)
@@ -117,9 +118,9 @@ def main(words: Sequence[str]) -> None:
         ingest(store, Path(given.argument))
     elif given.op == "forget":
         campaign, _, test = given.argument.partition("/")
-        lifecycle.forget(store, campaign, test or None)
+        forget(store, campaign, test or None)
     elif given.op == "gc":
-        lifecycle.gc(store, grace_s=0)
+        gc(store, grace_s=0)
     elif given.op == "snapshot":
         snapshot(store, given.argument)
     elif given.op == "migrate":

@@ -93,18 +93,8 @@ def program(
             quantity = needs[role] if needs[role] != "*" else "temperature"
             inputs[channel] = Input(channel, channel, quantity, CANONICAL_UNIT.get(quantity, "1"), low, 1e5)
     laws = [one.term(f"e{i}", step_s) for i, one in enumerate(terms)]
-    return build(
-        "model",
-        "dZ",
-        "um",
-        laws,
-        inputs,
-        cycle_s,
-        limits,
-        [("model", "test 0123456789ab")],
-        start,
-        dict.fromkeys(inputs, band),
-    )
+    blank = Program("model", "dZ", "um", cycle_s, limits, (("model", "test 0123456789ab"),), start)
+    return build(blank, laws, inputs, dict.fromkeys(inputs, band))
 
 
 def day(channels: Mapping[str, str], cycle_s: float, hours: float = 24.0, seed: int = 1) -> dict[str, Float1D]:

@@ -28,7 +28,7 @@ from thermodata.store.catalogue.looks import open_in
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.stale import came_after_line, stale_line
 from thermodata.store.ingest.run import ingest
-from thermodata.store.keep.lifecycle import forget
+from thermodata.store.keep.forget import forget
 from thermodata.store.trace.lineage import trace
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.lists.events import about_test

@@ -14,7 +14,7 @@ from thermodata.modelling.named import newest_model, of_which_version
 from thermodata.notebook.stale import NoBandWarning, StaleModelWarning
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.ingest.run import ingest
-from thermodata.store.keep.lifecycle import forget
+from thermodata.store.keep.forget import forget
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.lists.models import model_rows
 

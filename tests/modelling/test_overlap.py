@@ -129,7 +129,7 @@ def test_where_the_shared_samples_lie_counts_from_the_test_and_ignores_its_histo
     def shared(one: str, other: str) -> tuple[float, float] | None:
         from thermodata.view.grid.shared_samples import shared_samples
 
-        a, b = (test_of(data.tests, name) for name in (one, other))
+        a, b = (the_one(data.tests, name) for name in (one, other))
         return shared_samples(a, b, "dZ")
 
     assert shared("late", "first") is None
@@ -137,11 +137,8 @@ def test_where_the_shared_samples_lie_counts_from_the_test_and_ignores_its_histo
     assert shared("whole", "late") == (5400.0, 7190.0)
 
 
-def test_of(tests: tuple[TestData, ...], name: str) -> TestData:
+def the_one(tests: tuple[TestData, ...], name: str) -> TestData:
     return next(t for t in tests if t.test == name)
-
-
-test_of.__test__ = False  # type: ignore[attr-defined]
 
 
 def test_two_machines_in_one_log_are_two_measurements(tmp_path: Path) -> None:

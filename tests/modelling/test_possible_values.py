@@ -66,11 +66,22 @@ def test_an_impossible_value_is_refused_at_its_line(
     assert error.exit_code == 2
 
 
-def test_what_lies_beyond_the_library_is_taken(world: Dataset, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("text", "name", "low", "high"),
+    [
+        ("fixed: {tau: 5000}", "tau", 5000.0, 5000.0),
+        ("fixed: {tau: 0}", "tau", 0.0, 0.0),
+        ("bounds: {tau: [0.5, 900]}", "tau", 0.5, 900.0),
+        ("bounds: {gain: [0, .inf]}", "gain", 0.0, float("inf")),
+    ],
+)
+def test_what_lies_beyond_the_library_is_taken(
+    world: Dataset, tmp_path: Path, text: str, name: str, low: float, high: float
+) -> None:
     path = tmp_path / "model.yaml"
-    for text in ("fixed: {tau: 5000}", "bounds: {tau: [0.5, 900]}", "bounds: {gain: [0, .inf]}", "fixed: {tau: 0}"):
-        path.write_text(HEAD + f"    {text}\n")
-        fit_model(load_model(path), world, uncertainty=False)
+    path.write_text(HEAD + f"    {text}\n")
+    fitted = fit_model(load_model(path), world, uncertainty=False)
+    assert low <= fitted.parameters()[f"spindle_bearing.{name}"].value <= high
 
 
 @pytest.mark.parametrize(("value", "hint"), [("b", "did you mean 'B'?"), ("long", "leave it out of the groups")])

@@ -373,7 +373,7 @@ MUTANTS = [
         "    tests = np.arange(len(problem.blocks))\n",
         "the locked tests take part in the estimate",
     ),
-    diagnosis("on_locked.py", "[p - p.mean() for p in parts]", "parts", "one unlucky zero withdraws a claim"),
+    diagnosis("on_locked.py", "import rms_about_means", "import rms as rms_about_means", "an unlucky zero withdraws"),
     diagnosis("on_locked.py", "_with(problem, tests, noise, kept)", "problem", "what else was selected is forgotten"),
     diagnosis(
         "confirm.py",
@@ -732,8 +732,8 @@ MUTANTS = [
     diagnosis("logging_faults.py", "and s != home", "", "the response's own clock is suspected"),
     diagnosis(
         "compressed.py",
-        "[p - p.mean() for p in parts if len(p)]",
-        "parts",
+        "import rms_about_means",
+        "import rms as rms_about_means",
         "an unlucky zero passes as wrong parameters",
     ),
     # ---- faults of the logs

@@ -17,8 +17,8 @@ import numpy as np
 from thermodata.cli import main
 from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.virtual.write_nc import ZONE, write_export
-from thermodata.virtual.write_tdms import write_recording
+from thermodata.virtual.gantry.logs.nc import ZONE, write_export
+from thermodata.virtual.gantry.logs.tdms import write_recording
 
 Once = Callable[[str, Callable[[Path], object]], Path]  # the fixture `once`
 STEP_S = 10.0

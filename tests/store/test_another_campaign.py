@@ -222,7 +222,7 @@ def test_one_at_the_same_place_may_change_its_tests_one_by_one(filled: Store, ca
 
 
 def test_one_that_was_forgotten_leaves_its_id(filled: Store, tmp_path: Path) -> None:
-    from thermodata.store.keep.lifecycle import forget
+    from thermodata.store.keep.forget import forget
 
     forget(filled, "shop")
     assert ingest(filled, others(tmp_path / "messung")).tests == 2

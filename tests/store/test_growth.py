@@ -169,7 +169,7 @@ def change_campaign(lab: Path, store: Store) -> None:
 
 
 def forget_test(lab: Path, store: Store) -> None:
-    from thermodata.store.keep.lifecycle import forget
+    from thermodata.store.keep.forget import forget
 
     forget(store, "grown", "t2")
 

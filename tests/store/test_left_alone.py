@@ -404,19 +404,19 @@ def test_a_commit_that_comes_between_is_noticed(
     store: Store, lab: Path, looked: Looked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Somebody forgets a test while this ingest looks at another one."""
-    from thermodata.store.keep.lifecycle import forget
+    from thermodata.store.keep.forget import forget
 
     ingest(store, lab)
     longer(lab.parent / "raw")
-    right, times = run.changes, []
+    right, times = run.difference, []
 
-    def changes(*words: Any) -> Any:
+    def difference(*words: Any) -> Any:
         times.append(1)
         if len(times) == 1:
             forget(Store(store.path), "grown", "t1")
         return right(*words)
 
-    monkeypatch.setattr(run, "changes", changes)
+    monkeypatch.setattr(run, "difference", difference)
     tests, _ = looked(store, lab)
     assert tests == ["t3", *(f"t{test}" for test in range(TESTS))]
     with store.reader() as con:

@@ -18,7 +18,8 @@ from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis, 
 from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looks_of
 from thermodata.store.catalogue.models import find_model, model_chain, save_fit
 from thermodata.store.ingest.run import ingest
-from thermodata.store.keep.lifecycle import forget, gc
+from thermodata.store.keep.forget import forget
+from thermodata.store.keep.gc import gc
 from thermodata.store.trace.lineage import trace
 
 from .store_fakes import daq, write_log

@@ -13,7 +13,7 @@ from thermodata.schema.files.load import load_campaign
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.ingest.told.not_listed import not_listed
-from thermodata.store.keep.lifecycle import forget
+from thermodata.store.keep.forget import forget
 
 
 def _new(store: Store, path: Path) -> list[str]:

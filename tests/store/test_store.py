@@ -16,7 +16,7 @@ from store_fakes import daq, write_campaign, write_log
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.keep.lifecycle import gc
+from thermodata.store.keep.gc import gc
 
 WORKER = Path(__file__).parent / "worker.py"
 

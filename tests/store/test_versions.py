@@ -14,7 +14,8 @@ from store_fakes import NpzReader, daq, write_log
 from thermodata.errors import FormatError, UsageError
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.keep.lifecycle import forget, gc
+from thermodata.store.keep.forget import forget
+from thermodata.store.keep.gc import gc
 from thermodata.store.trace.lineage import trace
 
 

@@ -9,12 +9,12 @@ import pytest
 
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.virtual import make_world
-from thermodata.virtual.as_drawn import MOST_LOCKED, SIZE_UM, as_drawn, known, thinly
-from thermodata.virtual.benchmark import case_of
 from thermodata.virtual.blind.trial import _alike, _Fits
-from thermodata.virtual.catalogue import EFFECTS
-from thermodata.virtual.levers import DRAWS, OWN_UM, own_um
-from thermodata.virtual.plan import Operation
+from thermodata.virtual.gantry.as_drawn import MOST_LOCKED, SIZE_UM, as_drawn, known, thinly
+from thermodata.virtual.gantry.case import case_of
+from thermodata.virtual.gantry.catalogue import EFFECTS
+from thermodata.virtual.gantry.levers import DRAWS, OWN_UM, own_um
+from thermodata.virtual.gantry.plan import Operation
 from thermodata.virtual.truth.names import right
 
 NAMES = ("spindle_bearing", "ambient_frame", "feed_screw", "coolant", "hydraulics")

@@ -12,7 +12,7 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.schema.files.load import load_campaign, load_model
 from thermodata.virtual import World, make_world, simulate
-from thermodata.virtual.logbook import Logbook
+from thermodata.virtual.gantry.logs.logbook import Logbook
 
 
 @pytest.fixture(scope="module")

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Float2D
-from thermodata.virtual.hall import BOUNDARIES
-from thermodata.virtual.machine import CONDUCTIVITY, RHO_C, Machine, build
-from thermodata.virtual.network import Builder, Network, Stepper
+from thermodata.virtual.gantry.heat.hall import BOUNDARIES
+from thermodata.virtual.gantry.heat.machine import CONDUCTIVITY, RHO_C, Machine, build
+from thermodata.virtual.gantry.heat.network import Builder, Network, Stepper
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,9 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.view.grid.dataset import Dataset
 from thermodata.virtual import HIDEABLE, World, dataset, make_world
-from thermodata.virtual.binned import to_dataset
-from thermodata.virtual.catalogue import EFFECTS, drivers_of
-from thermodata.virtual.levers import own_um
+from thermodata.virtual.gantry.binned import to_dataset
+from thermodata.virtual.gantry.catalogue import EFFECTS, drivers_of
+from thermodata.virtual.gantry.levers import own_um
 
 
 @pytest.fixture(scope="module")

@@ -164,6 +164,7 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
                 where=where,
                 expected=unit,
                 got=written,
+                hint="write the offset in the channel's unit, or correct 'unit' of the channel",
             ) from error
     return values * calibration.gain + offset, unit
 
@@ -230,6 +231,7 @@ def _range_flags(
             where=where,
             expected="[low, high] with low < high",
             got=f"[{sensor.range[0]}, {sensor.range[1]}]",
+            hint="the ends between which the sensor's data sheet lets it measure",
         )
     edge = AT_END * (high - low)
     flags = np.zeros(len(x), dtype=np.uint16)

@@ -34,6 +34,7 @@ def _gain(name: str, spec: ScaleCalibration | LinearCalibration) -> tuple[float,
             where=f"calibrations.{name}.gain",
             expected="a number other than 0",
             got=str(spec.gain),
+            hint="the gain is what one unit of the raw signal means: gain: 25 um/V",
         )
     return gain, unit
 
@@ -151,5 +152,6 @@ def _percent_of_gain(name: str, spec: ScaleCalibration, gain: float, gain_unit: 
             where=f"calibrations.{name}.uncertainty",
             expected="for example '2 %'",
             got=str(spec.uncertainty),
+            hint="in per cent of the gain, or in the channel's unit",
         )
     return 100.0 * value * delta_factor(unit, gain_unit) / gain

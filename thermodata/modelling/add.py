@@ -35,7 +35,11 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     parent = find_model(store, ref)
     old = load(store, parent.model, anew=True)
     if not candidates:
-        raise UsageError("nothing is named to add", expected="a rank or id of the diagnosis, or 'effect:channels'")
+        raise UsageError(
+            "nothing is named to add",
+            expected="a rank or id of the diagnosis, or 'effect:channels'",
+            hint="'thermodata diagnose MODEL' lists the candidates with their ranks",
+        )
     found = load_diagnosis(store, parent.model)
     grown, names, slips = parent.spec, list[str](), list[str]()
     for candidate in candidates:
@@ -44,11 +48,21 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
             continue
         name = chosen_id(store, parent.model, candidate)
         if name in names:
-            raise UsageError(f"candidate '{name}' is named twice", expected="each once", got=str(candidate))
+            raise UsageError(
+                f"candidate '{name}' is named twice",
+                expected="each once",
+                got=str(candidate),
+                hint="leave one of the two out",
+            )
         names.append(name)
         lines = lines_of_test(name, grown, old.data, found, parent.result.responses)
         if lines and any(line in grown.effects for line in lines):
-            raise UsageError(f"candidate '{name}' is in the model already", expected="each once", got=str(candidate))
+            raise UsageError(
+                f"candidate '{name}' is in the model already",
+                expected="each once",
+                got=str(candidate),
+                hint="'thermodata remove MODEL EFFECT' first, where it is to be put in otherwise",
+            )
         slips += [name] if lines else []
         grown = with_lines(grown, lines) if lines else with_candidate(grown, name, old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
@@ -98,6 +112,7 @@ def chosen_id(store: Store, model: str, candidate: str | int, response: str | No
                 f"no candidate of rank {name}",
                 expected=", ".join(f"{r} ({i})" for r, i in ranks.items()) or "none: the diagnosis has no candidates",
                 got=name,
+                hint="a rank counts from 1 as 'thermodata diagnose MODEL' lists them; or name the candidate by its id",
             )
         name = ranks[int(name)]
     return name

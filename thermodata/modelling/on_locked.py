@@ -6,17 +6,15 @@ import hashlib
 import json
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.predictions.score import FEWEST, figures
 from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.terms.rms import rms, rms_about_means
 from thermodata.schema.answers.locked_error import LockedError, TestLocked
 from thermodata.version import __version__
 
 if TYPE_CHECKING:
-    from thermodata.plugin import Float1D
     from thermodata.store import Store
     from thermodata.view.grid.dataset import TestData
 
@@ -60,8 +58,8 @@ def _of_response(store: Store, model: Loaded, response: FittedResponse) -> tuple
         name=model.fitted.spec.name,
         response=response.name,
         unit=response.unit,
-        rmse_um=_rms(residuals),
-        shape_um=_rms([r - r.mean() for r in residuals]),
+        rmse_um=rms(residuals),
+        shape_um=rms_about_means(residuals),
         tests=rows,
         left_out=left_out,
         looks=max(locked_looks(store, *t.key) for t in tests),
@@ -101,17 +99,13 @@ def _row(response: FittedResponse, test: TestData) -> TestLocked:
     return TestLocked(
         campaign=test.campaign,
         test=test.test,
-        rmse_um=_rms([residual]),
-        shape_um=_rms([residual - residual.mean()]),
+        rmse_um=rms([residual]),
+        shape_um=rms_about_means([residual]),
         fit=told["fit"],
         ptp_um=told["ptp_um"] or 0.0,
         max_um=told["max_um"] or 0.0,
         n=len(residual),
     )
-
-
-def _rms(parts: list[Float1D]) -> float:
-    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
 
 
 def _of(model: Loaded, response: FittedResponse) -> str:

@@ -40,6 +40,7 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
             where=f"model '{parent.spec.name}'",
             expected=", ".join(named or ids) or "a model with effects",
             got=effect,
+            hint="name one by its id",
         )
     gone = [i for i in ids if i == of or is_lag_of(i, of)]
     kept = [e.model_copy(update={"id": i}) for i, e in zip(ids, parent.spec.effects, strict=True) if i not in gone]

@@ -102,7 +102,11 @@ class Verdict(Shown, Generic[F]):
         UsageError where none was weighed."""
         shown = [c for c in told(self.result) if c.courses]
         if not shown:
-            raise UsageError("there is no candidate to draw", where=f"diagnosis of {self.result.model}")
+            raise UsageError(
+                "there is no candidate to draw",
+                where=f"diagnosis of {self.result.model}",
+                hint="the verdict's own words say what the tests lack: print it",
+            )
         charts = {f"{c.rank}. {c.id}": course_chart(c, self.unit) for c in shown}
         return Plot(f"what {self.of.name} misses", charts)
 

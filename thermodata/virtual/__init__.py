@@ -10,11 +10,17 @@ from typing import TYPE_CHECKING
 from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
-    from thermodata.virtual.binned import dataset
-    from thermodata.virtual.catalogue import HIDEABLE
-    from thermodata.virtual.world import World, make_world
-    from thermodata.virtual.writing import Truth, simulate
+    from thermodata.virtual.gantry.binned import dataset
+    from thermodata.virtual.gantry.catalogue import HIDEABLE
+    from thermodata.virtual.gantry.world import World, make_world
+    from thermodata.virtual.gantry.writing import Truth, simulate
 __all__ = ["HIDEABLE", "Truth", "World", "dataset", "make_world", "simulate"]
 __getattr__ = on_demand(
-    __name__, {"binned": "dataset", "catalogue": "HIDEABLE", "world": "World make_world", "writing": "Truth simulate"}
+    __name__,
+    {
+        "gantry.binned": "dataset",
+        "gantry.catalogue": "HIDEABLE",
+        "gantry.world": "World make_world",
+        "gantry.writing": "Truth simulate",
+    },
 )

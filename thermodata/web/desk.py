@@ -76,7 +76,11 @@ class Desk:
         leads out of the chosen folders."""
         text = str(name)
         if "\0" in text:
-            raise UsageError("a path holds no zero byte", where=repr(text))
+            raise UsageError(
+                "a path holds no zero byte",
+                where=repr(text),
+                hint="type the path anew: something invisible was pasted with it",
+            )
         given = Path(text).expanduser()
         real = (given if given.is_absolute() else self.folders[0] / given).resolve()
         if not any(real == folder or folder in real.parents for folder in self.folders):

@@ -17,5 +17,9 @@ async def form_of(request: Request) -> dict[str, str]:
     async for piece in request.stream():
         body += piece
         if len(body) > MOST_BYTES:
-            raise UsageError("this form is too long", expected=f"at most {MOST_BYTES >> 20} MiB")
+            raise UsageError(
+                "this form is too long",
+                expected=f"at most {MOST_BYTES >> 20} MiB",
+                hint="edit the file itself in an editor, and ingest it again",
+            )
     return dict(parse_qsl(body.decode("utf-8", "replace"), keep_blank_values=True))

@@ -14,7 +14,11 @@ def number_in(given: Mapping[str, str], name: str, default: int) -> int:
     if not text:
         return default
     if not text.isdecimal() or len(text) > 9:
-        raise UsageError(f"'{name}' is a whole number", got=text[:60])
+        raise UsageError(
+            f"'{name}' is a whole number",
+            got=text[:60],
+            hint="give it in digits, without a point",
+        )
     return int(text)
 
 
@@ -28,5 +32,9 @@ def seconds_in(given: Mapping[str, str], name: str) -> float | None:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise UsageError(f"'{name}' is a time in seconds", got=text[:60])
+        raise UsageError(
+            f"'{name}' is a time in seconds",
+            got=text[:60],
+            hint="give seconds from the start of the test: 3600",
+        )
     return value

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import gc
 import struct
 import sys
 from pathlib import Path
@@ -127,6 +128,23 @@ def test_links_in_a_circle_or_out_of_the_file_are_refused(tmp_path: Path, kind: 
         path.write_bytes(data[: at + offset] + struct.pack("<Q", target) + data[at + offset + 8 :])
         with pytest.raises(FormatError, match=r"circle|out of the file|no block|another kind"):
             read(path)
+
+
+def test_what_the_library_leaves_of_a_file_that_it_gives_up_is_no_word_on_stderr(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write(tmp_path / "x.mf4", "4.10")
+
+    def gives_up(*_: Any, **__: Any) -> None:
+        raise ValueError("a block of another kind")
+
+    monkeypatch.setattr("asammdf.blocks.mdf_v4.MDF4._read", gives_up)
+    told: list[Any] = []
+    monkeypatch.setattr(sys, "unraisablehook", told.append)
+    with pytest.raises(FormatError, match="a damaged MDF file"):
+        read(path)
+    gc.collect()
+    assert told == []
 
 
 def test_a_channel_outside_its_record_is_refused_before_the_library_reads_there(tmp_path: Path) -> None:

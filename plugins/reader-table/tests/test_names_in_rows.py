@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from pathlib import Path
 
 import numpy as np
 import pytest
 from thermodata_reader_table import Reader
 
-from tests.draft.labs import workbook
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.contract.guard import described, guarded
 from thermodata.reader.finding.match import match_signal
+
+from .test_sheets import sheet, workbook
 
 
 def names_of(path: Path) -> list[str]:
@@ -127,8 +127,8 @@ def test_values_behind_another_name_are_lost_to_the_column_and_told(tmp_path: Pa
 
 def test_so_are_those_of_a_workbook(tmp_path: Path) -> None:
     path = tmp_path / "pairs.xlsx"
-    rows = [[datetime.fromisoformat(r[0]), r[1], float(r[2]), r[3], float(r[4])] for r in later(600, 400)]
-    workbook(path, {"log": rows})
+    rows: list[list[object]] = [[r[0], r[1], float(r[2]), r[3], float(r[4])] for r in later(600, 400)]
+    workbook(path, {"log": sheet(rows)})
     reader, source = Reader(), Source(timezone="UTC")
     recording = described(reader, path, source)
     assert match_signal("column 3", recording.signals).name == "T_front"

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_table import Reader, workbook_beginning
+from thermodata_reader_table import Reader
+from thermodata_reader_table.workbook import beginning as workbook_beginning
 
 from thermodata.cli import main
 from thermodata.errors import FormatError

@@ -28,6 +28,7 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
             "clock: no events to align by",
             expected="events: [{here: ..., there: ...}]",
             got=f"{here.size} and {there.size} times",
+            hint="list moments that were seen in both logs, two far apart for the drift, too",
         )
     order = np.argsort(here, kind="stable")
     here, there = here[order], there[order]

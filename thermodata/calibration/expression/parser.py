@@ -116,7 +116,12 @@ def parse(text: str, *, rates: bool = False) -> Expression:
     if not isinstance(text, str) or not text.strip():
         raise UsageError("an empty expression", expected="for example 'T_nut_Z - T_amb'", got=repr(text))
     if len(text) > _LONGEST:
-        raise UsageError("an expression too long", expected=f"at most {_LONGEST} characters", got=str(len(text)))
+        raise UsageError(
+            "an expression too long",
+            expected=f"at most {_LONGEST} characters",
+            got=str(len(text)),
+            hint="take it apart: a 'derive' may read other derived channels",
+        )
     parser = _Parser(text, rates)
     tree = parser.either()
     parser.end()

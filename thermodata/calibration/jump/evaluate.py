@@ -139,6 +139,8 @@ def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
             where=f"calibrations.{name}",
             expected="moves other than 0, a dwell above 0 s, a move_uncertainty of 0 um or more",
             got=f"moves {moves}, dwell {spec.dwell} s, move_uncertainty {spec.move_uncertainty} um",
+            hint="correct these in the campaign file; what has no moves is no jump test, and its scale "
+            "goes under 'gain'",
         )
     return moves
 

@@ -22,7 +22,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
     again.
     """
     from thermodata.schema.words.sentences import counted
-    from thermodata.store.keep.lifecycle import forget
+    from thermodata.store.keep.forget import forget
 
     gone = plain(forget(session.store(), campaign, test, earlier=earlier, models=models))
     session.answer(gone, lambda: fields(gone.items()))
@@ -37,7 +37,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
     from thermodata.schema.units.quantity import value_in
-    from thermodata.store.keep.lifecycle import gc
+    from thermodata.store.keep.gc import gc
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))
     session.answer(gone, lambda: fields(gone.items()))

@@ -67,9 +67,9 @@ def benchmark_diagnosis_command(
     for option, given in of_other.items():
         if given:
             raise UsageError(f"{option} does not go with --machine {machine}", hint="see benchmark-diagnosis --help")
-    from thermodata.virtual.benchmark import strata_of
     from thermodata.virtual.blind.asked import Asked
     from thermodata.virtual.blind.seeds import seeds_of
+    from thermodata.virtual.gantry.case import strata_of
 
     strata = strata_of(hide, logged=not not_logged) if machine == "gantry" else stratum
     used = seeds_of(first_seed, seeds, sealed)

@@ -19,7 +19,7 @@ from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.refines import LITTLE, PART, elsewhere_of, mode_of
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import known, rms
+from thermodata.diagnosis.question.known import known
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.question.present import GENERIC
 from thermodata.diagnosis.question.problem import Block, Problem
@@ -28,6 +28,7 @@ from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D, Int1D
 
 AIR = "ambient"  # a temperature of the air counts from nothing else
@@ -220,7 +221,7 @@ class Refinement:
 
     def _size(self, term: int) -> float:
         """RMS of what a known effect does, as fitted, in its largest test."""
-        return max(float(np.sqrt(np.mean(self._does(b, term) ** 2))) for b in self.problem.blocks)
+        return max(rms([self._does(b, term)]) for b in self.problem.blocks)
 
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels

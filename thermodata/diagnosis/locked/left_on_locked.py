@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.diagnosis.claims.rules import HALVES
-from thermodata.diagnosis.question.known import rms
 from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.modelling.terms.rms import rms_about_means
 from thermodata.modelling.versions.with_claims import is_fit_with_claims
 from thermodata.schema.words.sentences import in_percent
 
@@ -77,4 +77,4 @@ def contradicted(
 def _spread(response: FittedResponse, tests: Sequence[TestData]) -> float:
     """RMS of the response about its mean in each test."""
     parts = [response.measured(t)[response.mask(t)] for t in tests]
-    return rms([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return rms_about_means([p for p in parts if len(p)] or [np.zeros(1)])

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.locked.confirm import shape_of
-from thermodata.diagnosis.question.known import rms
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.terms.rms import rms
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.grid.dataset import TestData
 

@@ -19,6 +19,7 @@ from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 
 from thermodata.diagnosis.question.chain import chain_of, sound
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D, Float2D
 
 # a model is never better than this share of what it leaves: without it, a misfit of 0.05 um that repeats outweighs all
@@ -202,7 +203,7 @@ def bounds_of(problem: Problem) -> tuple[Noise, Float2D]:
 
 def left_over(problem: Problem) -> float:
     """RMS of what the fitted model leaves, in the response's unit."""
-    return float(np.sqrt(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2))) + 1e-9
+    return rms([b.residual for b in problem.blocks]) + 1e-9
 
 
 def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:

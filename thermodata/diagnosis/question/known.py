@@ -25,6 +25,7 @@ from thermodata.diagnosis.question.discrepancy import (
     whitened,
 )
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D, Float2D, Int1D
 
 FloatND = NDArray[np.float64]
@@ -223,8 +224,3 @@ def _gains(problem: Problem) -> Float1D:
 def _precision(gains: Float1D, slack: int, share: float) -> Float1D:
     """Of the prior. slack: how many columns are other time constants. share: their prior standard deviation."""
     return np.concatenate([gains**-2.0, np.full(slack, share**-2.0)])
-
-
-def rms(parts: Sequence[Float1D]) -> float:
-    """Of all samples of some series together."""
-    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))

@@ -16,7 +16,7 @@ import numpy as np
 from thermodata.modelling.terms.nuisance import WARM, unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.units.quantity import difference_unit
-from thermodata.view.grid.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import TestData
 
 TARGET_ROWS = 9000
 MIN_ROWS = 10
@@ -60,8 +60,7 @@ class Block:
 
     def with_known(self, base: Float2D, slack: Float2D) -> Block:
         """The same with what the model can do, shapes (m, k) and (m, s)."""
-        own = self.test, self.t_s, self.response, self.residual, base, slack, self.segment, self.group, self.size
-        return Block(*own)
+        return replace(self, base=base, slack=slack)
 
     def without(self, rows: Bool1D) -> Block:
         """The same as if some of its samples, shape (m,), had not been measured."""
@@ -203,52 +202,51 @@ def _group_mean(columns: Float2D, group: Int1D, size: int) -> Float2D:
 Base = Callable[[TestData], Float2D]
 
 
-def build_problem(
-    data: Dataset,
-    tests: Sequence[TestData],
-    response: str,
-    unit: str,
-    *,
-    measured: Callable[[TestData], Float1D],
-    residual: Callable[[TestData], Float1D],
-    mask: Callable[[TestData], Bool1D],
-    base: Base,
-    slack: Base,
-    rows: int = TARGET_ROWS,
-) -> Problem:
-    """Compress every test. measured, residual, mask (the samples that count): of a test, shape (n,). rows: of all tests
-    together, at most, but for what a step cannot divide."""
-    masks = {t.key: mask(t) for t in tests}
+@dataclass(frozen=True, slots=True)
+class Explained:
+    """A response that a model explains, as functions of a test with n rows. measured, residual: shape (n,), in `unit`;
+    mask: shape (n,), the samples that count; base, slack: shapes (n, k) and (n, s), as in a `Block`."""
+
+    response: str
+    unit: str
+    measured: Callable[[TestData], Float1D]
+    residual: Callable[[TestData], Float1D]
+    mask: Callable[[TestData], Bool1D]
+    base: Base
+    slack: Base
+
+
+def build_problem(explained: Explained, tests: Sequence[TestData], step_s: float, rows: int = TARGET_ROWS) -> Problem:
+    """Compress every test. step_s: of the tests' grid. rows: of all tests together, at most, but for what a step cannot
+    divide."""
+    masks = {t.key: explained.mask(t) for t in tests}
     total = sum(int(m.sum()) for m in masks.values())
     every = max(1, -(-total // rows))
     usable = [t for t in tests if masks[t.key].sum() >= MIN_ROWS]
-    blocks, noises = [], []
+    blocks: list[Block] = []
+    noises: list[float] = []
     for test in usable:
-        left = residual(test)
-        noises.append(_short_noise(left[masks[test.key]]))
-        both, own, spare = np.nan_to_num(np.column_stack([measured(test), left])), base(test), slack(test)
-        for keep in _parts(masks[test.key], len(usable)):
-            bins = np.arange(len(test.t_s)) // every
-            names, group_of_kept = np.unique(bins[keep], return_inverse=True)
-            group = np.full(len(test.t_s), -1, dtype=np.int64)
-            group[keep] = group_of_kept
-            empty, none = np.empty(0), np.empty((0, 0))
-            segment = np.zeros(len(names), dtype=np.int64)
-            block = Block(test, empty, empty, empty, none, none, segment, group, len(names))
-            t_s = _group_mean(test.t_s[:, None], group, block.size)[:, 0]
-            block = replace(block, t_s=t_s)
+        mask, left = masks[test.key], explained.residual(test)
+        noises.append(_short_noise(left[mask]))
+        both = np.nan_to_num(np.column_stack([explained.measured(test), left]))
+        base, slack = explained.base(test), explained.slack(test)
+        for keep in _parts(mask, len(usable)):
+            block = _empty_block(test, keep, every)
             y = block.compress(both)
-            blocks.append(
-                replace(
-                    block,
-                    response=y[:, 0],
-                    residual=y[:, 1],
-                    base=block.compress(own),
-                    slack=block.compress(spare),
-                )
-            )
+            filled = block.with_known(block.compress(base), block.compress(slack))
+            blocks.append(replace(filled, response=y[:, 0], residual=y[:, 1]))
     noise = float(np.median(noises)) if noises else float("nan")
-    return Problem(response, difference_unit(unit), data.step_s * every, tuple(blocks), noise)
+    return Problem(explained.response, difference_unit(explained.unit), step_s * every, tuple(blocks), noise)
+
+
+def _empty_block(test: TestData, keep: Bool1D, every: int) -> Block:
+    """The rows of a test that are kept, shape (n,), the mean of so many each, with nothing in them yet."""
+    names, group_of_kept = np.unique((np.arange(len(test.t_s)) // every)[keep], return_inverse=True)
+    group = np.full(len(test.t_s), -1, dtype=np.int64)
+    group[keep] = group_of_kept
+    empty, none, size = np.empty(0), np.empty((0, 0)), len(names)
+    t_s = _group_mean(test.t_s[:, None], group, size)[:, 0]
+    return Block(test, t_s, empty, empty, none, none, np.zeros(size, dtype=np.int64), group, size)
 
 
 def _parts(mask: Bool1D, tests: int) -> list[Bool1D]:

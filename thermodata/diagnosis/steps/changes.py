@@ -16,6 +16,7 @@ from thermodata.diagnosis.question.problem import Block
 from thermodata.diagnosis.steps.sudden import BESIDE, HOLE_STEPS, over_three, suddenly
 from thermodata.effect.places import holds
 from thermodata.modelling.inputs.drivers import start_value
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.view.grid.dataset import ChannelInfo
 
@@ -56,7 +57,7 @@ def courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[Course | 
         return [None if b is None else _kept(_of_command, b, name, least) for b in logged]
     # a motor that cools once its axis rests is no other body
     sudden = [_kept(_sudden, b, name) for b in logged if b is not None]
-    usual = float(np.sqrt(np.mean(np.concatenate([*sudden, np.zeros(1)]) ** 2)))
+    usual = rms([*sudden, np.zeros(1)])
     enough = min(least[0], max(SUDDEN * usual, LEAST_K))
     return [None if b is None else _kept(_of_temperature, b, name, enough) for b in logged]
 

@@ -23,6 +23,7 @@ from thermodata.diagnosis.unlogged.source_steps import (
     normal_equations,
     source_columns,
 )
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D, Float2D
 from thermodata.view.grid.dataset import TestData
 
@@ -135,7 +136,7 @@ def _changes(solution: Solution, there: NDArray[np.bool_]) -> Float2D:
 
 
 def _typical(changes: Float2D, there: NDArray[np.bool_]) -> float:
-    return float(np.sqrt(np.mean(changes[there] ** 2))) or 1.0
+    return rms([changes[there]]) or 1.0
 
 
 def counted(changes: Float2D, there: NDArray[np.bool_]) -> Float1D:

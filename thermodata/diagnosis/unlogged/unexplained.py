@@ -10,6 +10,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.schema.answers.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
@@ -126,12 +127,12 @@ def _hours(problem: Problem) -> list[float]:
         days.append((hour, block.residual))
     if len(days) < 3:
         return []
-    rms = float(np.sqrt(np.mean(np.concatenate([r for _, r in days]) ** 2)))
+    whole = rms([r for _, r in days])
     hours = []
     for h in range(24):
         means = [
             float(r[(hour >= h) & (hour < h + 1)].mean()) for hour, r in days if ((hour >= h) & (hour < h + 1)).any()
         ]
-        if len(means) >= 3 and abs(np.mean(means)) > rms and abs(np.sum(np.sign(means))) >= 0.8 * len(means):
+        if len(means) >= 3 and abs(np.mean(means)) > whole and abs(np.sum(np.sign(means))) >= 0.8 * len(means):
             hours.append(float(h))
     return hours

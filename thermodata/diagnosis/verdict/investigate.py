@@ -18,7 +18,7 @@ from thermodata.diagnosis.claims.probability import at_best, limit_of, may_be_bo
 from thermodata.diagnosis.claims.refinement import Refinement
 from thermodata.diagnosis.claims.rules import failed_rules
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed, error_of
-from thermodata.diagnosis.question.known import Known, known, rms
+from thermodata.diagnosis.question.known import Known, known
 from thermodata.diagnosis.question.known_effects import owners, remembered
 from thermodata.diagnosis.question.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.question.weak import weak_spots
@@ -46,6 +46,7 @@ from thermodata.diagnosis.weigh.null import best_of_chance
 from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Int1D
 from thermodata.schema.answers.diagnosis import Artefact, WeakSpot
 from thermodata.view.grid.dataset import Dataset, TestData

@@ -23,6 +23,7 @@ from thermodata.diagnosis.weigh.beside import extended
 from thermodata.diagnosis.weigh.evidence import columns, moments, weigh
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.scored import ACTS, Scored
+from thermodata.modelling.terms.rms import rms_about_means
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 
@@ -76,9 +77,9 @@ def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored]
     asked = np.concatenate([tests, locked]).astype(np.int64)
     gained = _log_probability(among, asked, tests) - _log_probability(without, asked, tests)
     return Foretold(
-        _rms(before),
-        _rms(after),
-        _rms([a - b for a, b in zip(before, after, strict=True)]),
+        rms_about_means(before),
+        rms_about_means(after),
+        rms_about_means([a - b for a, b in zip(before, after, strict=True)]),
         gained / sum(len(r) for r in before),
         keys,
     )
@@ -94,7 +95,7 @@ def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
         base = known(problem, noise)
         weighed = weigh(base, made, moments(base, made).of(tests), tests)
         does = made.does(weighed)
-        size = np.array([_rms([does[rows]]) for rows in base.space.parts])
+        size = np.array([rms_about_means([does[rows]]) for rows in base.space.parts])
         acts |= size >= ACTS * size[tests].max()
         problem = extended(problem, [(made, weighed)])
     return problem, acts
@@ -114,7 +115,3 @@ def _one(problem: Problem, test: int, theta: Float1D) -> Float1D:
 def _log_probability(base: Known, both: Int1D, tests: Int1D) -> float:
     """Of the other tests among both, given these, but for what the noise alone makes of it: of both less of these."""
     return base.log_probability(both) - base.log_probability(tests)
-
-
-def _rms(parts: Sequence[Float1D]) -> float:
-    return float(np.sqrt(np.mean(np.concatenate([p - p.mean() for p in parts]) ** 2)))

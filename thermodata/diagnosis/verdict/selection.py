@@ -88,27 +88,7 @@ def select(
     it stood in the way of; of what these passes end with the likeliest stands; at last what was dropped beside others
     that went later is asked again. sound: whether a candidate keeps the rules of a claim. among: what may be chosen, of
     all that was ranked. good: an error of the model on left-out tests that hides nothing."""
-    noise = first.known.space.noise
-    chosen: list[Scored] = []
-    current: list[Scored] = []
-    dropped: list[Scored] = []
-    passes: list[_Ended] = []
-    for number in range(PASSES):
-        rest = without(among, [*chosen, *dropped])
-        last = _only(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
-        before = len(dropped)
-        _forward(problem, among, chosen, dropped, last)
-        noise = likeliest(beside(problem, chosen), noise)
-        current = each_beside_others(problem, chosen, noise)
-        while unsound := [i for i, s in enumerate(current) if not sound(s)]:
-            worst = min(unsound, key=lambda i: current[i].evidence)
-            dropped.append(current[worst])
-            chosen.pop(worst)
-            noise = likeliest(beside(problem, chosen), noise)
-            current = each_beside_others(problem, chosen, noise)
-        passes.append(_Ended(tuple(chosen), tuple(current), noise))
-        if len(dropped) == before:
-            break
+    passes, dropped = _passes(problem, first, sound, among)
     best = _likeliest_of(problem, passes)
     chosen, current, noise = list(best.chosen), list(best.weighed), best.noise
     dropped = [s for s in dropped if not any(s.columns is c.columns for c in chosen)]
@@ -122,8 +102,8 @@ def select(
     held, noise, chosen = beside(problem, whole.context), whole.noise, list(whole.chosen)
     credits = _credits(held, whole.weighed, noise)
     current = [replace(s, credit=c) for s, c in zip(whole.weighed, credits, strict=True)]
-    every = without([s.columns for s in first.ranked], whole.context)
-    members = tuple(_member(held, every, among, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
+    swaps = _Swaps(held, without([s.columns for s in first.ranked], whole.context), among, noise, sound)
+    members = tuple(swaps.member(chosen, i, own) for i, own in enumerate(current))
     named = [*chosen, *whole.context]
     gone = (s for s in dropped if not any(s.columns is n.columns for n in named))
     return Selection(first, members, (*whole.context, *gone), noise, first.known.left_out, whole.context)
@@ -144,6 +124,33 @@ def any_stands_out(
     beside_all = rank_in(full, without(some, selection.together), selection.noise, left_out=False)
     found = (in_noise_of_best(ranked, TRIED) for ranked in (_only(first, some), beside_all))
     return any(may(s) for one in found if one is not None for s in one.ranked)
+
+
+def _passes(
+    problem: Problem, first: Ranked, sound: Callable[[Scored], bool], among: Sequence[Columns]
+) -> tuple[list[_Ended], list[Scored]]:
+    """(what each pass ends with, what they dropped): forward, then what is not sound beside the others goes."""
+    noise = first.known.space.noise
+    chosen: list[Scored] = []
+    dropped: list[Scored] = []
+    passes: list[_Ended] = []
+    for number in range(PASSES):
+        rest = without(among, [*chosen, *dropped])
+        last = _only(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
+        before = len(dropped)
+        _forward(problem, among, chosen, dropped, last)
+        noise = likeliest(beside(problem, chosen), noise)
+        current = each_beside_others(problem, chosen, noise)
+        while unsound := [i for i, s in enumerate(current) if not sound(s)]:
+            worst = min(unsound, key=lambda i: current[i].evidence)
+            dropped.append(current[worst])
+            chosen.pop(worst)
+            noise = likeliest(beside(problem, chosen), noise)
+            current = each_beside_others(problem, chosen, noise)
+        passes.append(_Ended(tuple(chosen), tuple(current), noise))
+        if len(dropped) == before:
+            break
+    return passes, dropped
 
 
 def _likeliest_of(problem: Problem, passes: Sequence[_Ended]) -> _Ended:
@@ -215,32 +222,34 @@ def _only(ranked: Ranked, some: Sequence[Columns]) -> Ranked:
     return replace(ranked, ranked=tuple(s for s in ranked.ranked if id(s.columns) in kept))
 
 
-def _member(
-    problem: Problem,
-    every: Sequence[Columns],
-    among: Sequence[Columns],
-    chosen: Sequence[Scored],
-    number: int,
-    own: Scored,
-    noise: Noise,
-    sound: Callable[[Scored], bool],
-) -> Member:
-    """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is preferred to
-    it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
-    the name foretells left-out tests better; or for a twin that the model does not read, that does so much better, that
-    warms what it reads, or that is its name."""
-    others = [c for i, c in enumerate(chosen) if i != number]
-    ranking = rank_in(beside(problem, others), without(every, others), noise)
-    eligible = _only(ranking, among)
-    best = preferred(eligible.ranked)
-    if best is not None and gives_way(own, best, eligible) and sound(best):
-        own = _in_place_of(own, best, others)
-    for one in (read_alone, better_twin, what_warms_it, its_name):
-        twin = one(own, eligible.ranked)
-        if twin is not None and sound(twin):
-            own = _in_place_of(own, twin, others)
-            break
-    return Member(chosen[number], own, ranking.ranked)
+@dataclass(frozen=True, slots=True)
+class _Swaps:
+    """What a member may be swapped for at last. problem: with the context; every: all candidates; among: those that may
+    be chosen; noise: beside all members; sound: whether one keeps the rules of a claim."""
+
+    problem: Problem
+    every: Sequence[Columns]
+    among: Sequence[Columns]
+    noise: Noise
+    sound: Callable[[Scored], bool]
+
+    def member(self, chosen: Sequence[Scored], number: int, own: Scored) -> Member:
+        """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is
+        preferred to it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the
+        lag's own, where the name foretells left-out tests better; or for a twin that the model does not read, that does
+        so much better, that warms what it reads, or that is its name. own: `chosen[number]` beside all others."""
+        others = [c for i, c in enumerate(chosen) if i != number]
+        ranking = rank_in(beside(self.problem, others), without(self.every, others), self.noise)
+        eligible = _only(ranking, self.among)
+        best = preferred(eligible.ranked)
+        if best is not None and gives_way(own, best, eligible) and self.sound(best):
+            own = _in_place_of(own, best, others)
+        for one in (read_alone, better_twin, what_warms_it, its_name):
+            twin = one(own, eligible.ranked)
+            if twin is not None and self.sound(twin):
+                own = _in_place_of(own, twin, others)
+                break
+        return Member(chosen[number], own, ranking.ranked)
 
 
 def _in_place_of(own: Scored, other: Scored, beside: Sequence[Scored]) -> Scored:

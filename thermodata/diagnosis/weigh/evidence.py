@@ -21,8 +21,9 @@ import numpy as np
 from thermodata.diagnosis.candidates.basis import basis
 from thermodata.diagnosis.candidates.of_library import UNNAMED, CandidateEffect
 from thermodata.diagnosis.question.discrepancy import halved
-from thermodata.diagnosis.question.known import FloatND, Known, others_of_each, rms, solved
+from thermodata.diagnosis.question.known import FloatND, Known, others_of_each, solved
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D, Float2D, Int1D, Param
 
 # prior standard deviations of a contribution, as multiples of the response: from what can hardly be seen to what is

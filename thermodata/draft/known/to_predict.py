@@ -57,6 +57,7 @@ def data_of(
             f"no folder, campaign file or campaign '{target}'",
             expected="a path, or a campaign of the store: " + ", ".join(known),
             got=target,
+            hint="check the path, or 'thermodata tests' for the campaigns of the store",
         )
     with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
         passing, campaign = _ingested(say, progress, store, fitted, path, Path(folder))

@@ -42,7 +42,12 @@ def facing_and_way(answer: str, where: str, axis: object) -> tuple[str, str]:
     """('-Z', 'gap') of '-Z, gap'. UsageError for another form, or for another axis than the channel's."""
     if answer not in ways(axis):
         raise UsageError(
-            "the way that a displacement counts", where=where, expected=" or ".join(ways(axis)), got=answer
+            "the way that a displacement counts",
+            where=where,
+            expected=" or ".join(ways(axis)),
+            got=answer,
+            hint="push the probe, or read its manual: does its number grow as the tool comes nearer, or "
+            "as it goes away?",
         )
     facing, _, way = answer.partition(", ")
     return facing, way

@@ -72,7 +72,11 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
     for name, answer in answers.items():
         channel = name.removeprefix(_UNREAD)
         if name not in known and not (name.startswith(_UNREAD) and channel in left_out):
-            raise UsageError(f"no question '{name}'", expected=", ".join(known)[:500])
+            raise UsageError(
+                f"no question '{name}'",
+                expected=", ".join(known)[:500],
+                hint="the draft was made anew meanwhile: look at what it asks now",
+            )
         answer = answer.strip()
         if not answer:
             continue
@@ -237,7 +241,12 @@ def _closing(line: str, start: int) -> int:
         depth += (letter in "{[") - (letter in "}]")
         if depth == 0:
             return i
-    raise UsageError("this line can't be filled in", where=line.strip()[:200], expected="a mapping on one line")
+    raise UsageError(
+        "this line can't be filled in",
+        where=line.strip()[:200],
+        expected="a mapping on one line",
+        hint="edit the file by hand there",
+    )
 
 
 def _entries(body: str) -> list[str]:

@@ -26,7 +26,13 @@ def quantity_and_unit(answer: str, where: str) -> tuple[str, str]:
     is none of it."""
     said = _ANSWER.match(answer.strip())
     if said is None:
-        raise UsageError("what a signal is has its unit in brackets", where=where, expected="feed [m/min]", got=answer)
+        raise UsageError(
+            "what a signal is has its unit in brackets",
+            where=where,
+            expected="feed [m/min]",
+            got=answer,
+            hint="a quantity as in the campaign files, then its unit: temperature [degC]",
+        )
     quantity = said["quantity"].strip().replace(" ", "_")
     if quantity not in QUANTITIES:
         raise unknown_name("quantity", quantity, QUANTITIES)

@@ -14,52 +14,38 @@ from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
 from thermodata.export.control.names import Names, identifier
-from thermodata.export.control.program import OF_START, Drive, Input, Limits, Program, Rate, Start, State, Term
+from thermodata.export.control.program import OF_START, Drive, Input, Program, Rate, State, Term
 from thermodata.modelling.seen.laws import TermLaw
 
 LONGEST_S, SHORTEST_S = 3600.0, 1e-3  # of a cycle
 MOST_DELAYED = 50_000  # samples in one delay
 
 
-def build(
-    name: str,
-    response: str,
-    unit: str,
-    terms: Sequence[TermLaw],
-    inputs: Mapping[str, Input],
-    cycle_s: float,
-    limits: Limits,
-    about: Sequence[tuple[str, str]] = (),
-    start: Start | None = None,
-    bands: Mapping[str, float] | None = None,
-) -> Program:
-    """The program of some laws. inputs: channel -> how it is read; bands: text of a drive -> its `band`. UsageError for
-    a cycle that the laws don't fit."""
+def build(blank: Program, terms: Sequence[TermLaw], inputs: Mapping[str, Input], bands: Mapping[str, float]) -> Program:
+    """A blank program with some laws in it. inputs: channel -> how it is read; bands: text of a drive -> its `band` (0
+    where it has none). UsageError for a cycle that the laws don't fit."""
+    cycle_s = blank.cycle_s
     if not SHORTEST_S <= cycle_s <= LONGEST_S:
-        raise UsageError("a cycle of a control", expected=f"{SHORTEST_S:g} s to {LONGEST_S:g} s", got=f"{cycle_s:g} s")
+        raise UsageError(
+            "a cycle of a control",
+            expected=f"{SHORTEST_S:g} s to {LONGEST_S:g} s",
+            got=f"{cycle_s:g} s",
+            hint="give one with --cycle: the time between two calls of the program",
+        )
     taken = Names()
     named = {channel: taken.take(one.name) for channel, one in inputs.items()}
-    for one in list(named.values()):  # what is made of an input's name
-        taken.names |= {f"{p}_{one}".lower() for p in ("valid", "held", "bad", "lost", "seen", "ok")}
+    for name in named.values():  # what is made of an input's name
+        taken.names |= {f"{p}_{name}".lower() for p in ("valid", "held", "bad", "lost", "seen", "ok")}
     maker = _Maker(cycle_s, taken, {c: law.Symbol(f"held_{n}") for c, n in named.items()})
     made = tuple(maker.term(t) for t in terms)
-    used = set().union(*(law.symbols(d.tree) for d in maker.drives.values())) if maker.drives else set()
-    return Program(
-        identifier(name),
-        response,
-        unit,
-        cycle_s,
-        tuple(
-            Input(named[c], c, i.quantity, i.unit, i.low, i.high, i.at)
-            for c, i in inputs.items()
-            if f"held_{named[c]}" in used
-        ),
-        tuple(replace(d, band=(bands or {}).get(d.text, 0.0)) for d in maker.drives.values()),
-        tuple(maker.states.values()),
-        made,
-        limits,
-        tuple(about),
-        start,
+    used = {name for drive in maker.drives.values() for name in law.symbols(drive.tree)}
+    return replace(
+        blank,
+        name=identifier(blank.name),
+        inputs=tuple(replace(one, name=named[c], channel=c) for c, one in inputs.items() if f"held_{named[c]}" in used),
+        drives=tuple(replace(d, band=bands.get(d.text, 0.0)) for d in maker.drives.values()),
+        states=tuple(maker.states.values()),
+        terms=made,
     )
 
 
@@ -69,7 +55,7 @@ class _Maker:
     def __init__(self, cycle_s: float, taken: Names, held: Mapping[str, law.Node]) -> None:
         self.cycle_s, self.taken, self.held = cycle_s, taken, held
         self.drives: dict[tuple[law.Node, bool], Drive] = {}
-        self.states: dict[tuple[object, ...], State] = {}
+        self.states: dict[State, State] = {}
 
     def term(self, term: TermLaw) -> Term:
         roles: dict[str, law.Node] = {}
@@ -121,17 +107,18 @@ class _Maker:
             case law.Number(value) if value <= 0:
                 return of
             case law.Number(value):
-                return self._state("lag", of, f"tau = {value / 60:.9g} min", rates=(self._rate(value),))
+                return self._remembered(State("", "lag", of, f"tau = {value / 60:.9g} min", (self._rate(value),)))
             case law.Where(condition, law.Number(then), law.Number(other)) if then > 0 and other > 0:
                 condition = self.flat(condition, where)
                 rates = (self._rate(then), self._rate(other))
                 about = f"tau = {then / 60:.9g} min while {written(condition)}, else {other / 60:.9g} min"
-                return self._state("lag", of, about, rates=rates, condition=condition)
+                return self._remembered(State("", "lag", of, about, rates, condition))
         raise UsageError(
             "a time constant that changes steadily can't run in a control",
             where=where,
             expected="a number, or a choice between two",
             got=written(tau),
+            hint="leave the effect out with --without",
         )
 
     def _rate(self, tau_s: float) -> Rate:
@@ -149,7 +136,9 @@ class _Maker:
                 hint="--cycle with a longer one",
             )
         late = round(late) if abs(late - round(late)) < 1e-9 * late else late
-        return self._state("delay", of, f"{dead_s / 60:.6g} min late", length=int(-(-late // 1)) + 1, late=float(late))
+        length = int(-(-late // 1)) + 1
+        about = f"{dead_s / 60:.6g} min late"
+        return self._remembered(State("", "delay", of, about, length=length, late=float(late)))
 
     def _filter(self, of: law.Node, by: Filter, where: str) -> law.Node:
         total: law.Node = law.Binary("*", law.Number(by.direct), of) if by.direct else law.ZERO
@@ -165,30 +154,20 @@ class _Maker:
                 tau = mode.tau_s if mode.s is not None else None
                 about = f"tau = {tau / 60:.9g} min" if tau else f"pole z = {complex(mode.z or 0).real:.9g}"
                 rates = (Rate(forgotten.real, new.real, tau),)
-                parts.append((complex(mode.weight).real, self._state("lag", of, about, rates=rates)))
+                parts.append((complex(mode.weight).real, self._remembered(State("", "lag", of, about, rates))))
             else:
-                state = self._state("pair", of, "a complex pair of poles", rates=(Rate(forgotten, new),))
+                pair = self._remembered(State("", "pair", of, "a complex pair of poles", (Rate(forgotten, new),)))
                 weight = complex(mode.weight)
-                assert isinstance(state, law.Symbol)
-                parts.append((2 * weight.real, law.Symbol(f"{state.name}_re")))
-                parts.append((-2 * weight.imag, law.Symbol(f"{state.name}_im")))
+                parts.append((2 * weight.real, law.Symbol(f"{pair.name}_re")))
+                parts.append((-2 * weight.imag, law.Symbol(f"{pair.name}_im")))
         for factor, part in parts:
             total = law.Binary("+", total, law.Binary("*", law.Number(complex(factor).real), part))
         return law.fold(total)
 
-    def _state(
-        self,
-        kind: str,
-        of: law.Node,
-        about: str,
-        rates: tuple[Rate, ...] = (),
-        condition: law.Node | None = None,
-        length: int = 0,
-        late: float = 0.0,
-    ) -> law.Node:
-        key = (kind, of, rates, condition, length, late)
+    def _remembered(self, state: State) -> law.Symbol:
+        """What a state gives; equal ones are one. state: not yet named."""
+        key = replace(state, about="")  # which is for the reader: what is computed is the same
         if key not in self.states:
-            name = self.taken.take(f"x{len(self.states) + 1}")
-            self.states[key] = State(name, kind, of, about, rates, condition, length, late)
+            self.states[key] = replace(state, name=self.taken.take(f"x{len(self.states) + 1}"))
         name = self.states[key].name
-        return law.Symbol(name if kind != "delay" else f"{name}_out")
+        return law.Symbol(name if state.kind != "delay" else f"{name}_out")

@@ -79,8 +79,8 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
     name = asked.name or f"{fitted.spec.name}_{response.name}"
     cycles = max(1, round(data.step_s / asked.cycle_s))
     start = Start(cycles, most_bins(cycles * asked.cycle_s))
-    bands = _bands(kept, data)
-    return build(name, response.name, response.unit, kept, inputs, asked.cycle_s, limits, about, start, bands)
+    blank = Program(name, response.name, response.unit, asked.cycle_s, limits, tuple(about), start)
+    return build(blank, kept, inputs, _bands(kept, data))
 
 
 def find_response(fitted: FittedModel, name: str | None) -> FittedResponse:
@@ -151,7 +151,11 @@ def _limits(response: FittedResponse, terms: Sequence[TermLaw], data: Dataset, a
     rate = asked.rate if asked.rate is not None else _rounded_up(2.0 * fastest or 10.0)
     for name, value in (("--limit", limit), ("--rate", rate), ("--hold", asked.hold_s)):
         if not (math.isfinite(value) and value > 0):
-            raise UsageError(f"{name} is larger than 0", got=f"{value:g}")
+            raise UsageError(
+                f"{name} is larger than 0",
+                got=f"{value:g}",
+                hint="leave it out for what the tests say",
+            )
     return Limits(limit, rate, asked.hold_s)
 
 

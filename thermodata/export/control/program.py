@@ -90,19 +90,20 @@ class Start:
 
 @dataclass(frozen=True)
 class Program:
-    """The whole. about: (what, text) for the heading. start: None where the first reading is what counts."""
+    """The whole; blank, before anything is computed in it. about: (what, text) for the heading. start: None where the
+    first reading is what counts."""
 
     name: str
     response: str
     unit: str
     cycle_s: float
-    inputs: tuple[Input, ...]
-    drives: tuple[Drive, ...]
-    states: tuple[State, ...]
-    terms: tuple[Term, ...]
     limits: Limits
     about: tuple[tuple[str, str], ...] = ()
     start: Start | None = None
+    inputs: tuple[Input, ...] = ()
+    drives: tuple[Drive, ...] = ()
+    states: tuple[State, ...] = ()
+    terms: tuple[Term, ...] = ()
 
     @property
     def hold_cycles(self) -> int:

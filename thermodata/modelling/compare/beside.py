@@ -75,6 +75,8 @@ def beside(
             where="--test",
             expected="tests with the role calibration or verification",
             got=", ".join(closed),
+            hint="leave --test out to compare on all tests that may be; locked ones are opened by "
+            "'thermodata confirm' alone",
         )
     rows = [row for row in rows if row.n or row.why]
     rows += _means(rows)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.modelling.terms.rms import rms
 from thermodata.modelling.trust.memory import memory
 from thermodata.plugin import Float1D
 
@@ -42,8 +43,8 @@ def difference(pinned: Float1D, other: Float1D) -> Difference | None:
     a, b = pinned[both], other[both]
     if not len(a):
         return None
-    course = _course(a, b, _rms(a), _rms(b))
-    value, centred = _rms(b) - _rms(a), course - course.mean()
+    course = _course(a, b, rms([a]), rms([b]))
+    value, centred = rms([b]) - rms([a]), course - course.mean()
     if not np.any(centred):
         return Difference(value, value, value, float(len(a)))
     span = memory(centred, [slice(0, len(centred))])
@@ -64,7 +65,7 @@ def difference_of_tests(pairs: Sequence[tuple[Float1D, Float1D]]) -> Difference 
             kept.append((pinned[both], other[both]))
     if not kept:
         return None
-    size_a, size_b = _rms(np.concatenate([a for a, _ in kept])), _rms(np.concatenate([b for _, b in kept]))
+    size_a, size_b = rms([a for a, _ in kept]), rms([b for _, b in kept])
     value, n, count = size_b - size_a, sum(len(a) for a, _ in kept), len(kept)
     if count < FEWEST:
         return Difference(value, None, None, float(count))
@@ -86,7 +87,3 @@ def _interval(value: float, sd: float, worth: float) -> Difference:
 
     reach = float(stdtrit(worth - 1, 0.5 + LEVEL / 2)) * sd
     return Difference(value, value - reach, value + reach, worth)
-
-
-def _rms(x: Float1D) -> float:
-    return float(np.sqrt(np.mean(x**2))) if len(x) else 0.0

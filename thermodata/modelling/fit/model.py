@@ -54,6 +54,8 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
                 where=f"response '{response.name}'",
                 expected="the response and the drivers of all effects in one test at least",
                 got="; ".join(why[:_SHOWN]) + ("; ..." if len(why) > _SHOWN else ""),
+                hint="give a test that has all of it the role calibration, or take the effect out whose "
+                "driver no test has",
             )
     if together(bound):
         fitted = fit_together(bound, open_tests, wanted, data, fit_response)
@@ -133,6 +135,8 @@ def fit_response(
                 expected=f"'{stage.bound.name}' and the drivers in "
                 + (", ".join("/".join(t.key) for t in stage.tests) or "a test"),
                 got="; ".join(why[:_SHOWN]) or None,
+                hint="list tests in its 'tests' that have these channels, or leave 'tests' out to identify "
+                "it with the others",
             )
         known, found = _identify(stage.bound, stage.members, {}, first, replace(how, wanted=None), tried)
         bound = replace(bound, terms=known.terms)

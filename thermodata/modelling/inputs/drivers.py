@@ -111,7 +111,11 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
     """(values, valid, relative) of a channel or expression, shapes (n,); NaN where not valid."""
     names = names_of(text)
     if not names:
-        raise UsageError(f"the driver '{text}' reads no channel", expected="a channel or an expression of channels")
+        raise UsageError(
+            f"the driver '{text}' reads no channel",
+            expected="a channel or an expression of channels",
+            hint="name a channel of the campaign; 'thermodata channels' lists them",
+        )
     for name in names:
         if name not in test.values:
             raise unknown_channel(name, list(test.values), where=f"test {test.campaign}/{test.test}")
@@ -153,7 +157,11 @@ def _nothing_valid(test: TestData, text: str, where: str) -> UsageError:
 def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Float1D, Bool1D]:
     """Gaps filled by straight lines (ends held), counted from the start; and where the filling is short enough."""
     if not good.any():
-        raise UsageError("a driver has no valid sample")
+        raise UsageError(
+            "a driver has no valid sample",
+            hint="'thermodata quality' says why its samples don't count; leave the test out of the fit, "
+            "or the effect out of the model",
+        )
     index = np.arange(len(raw))
     known = index[good]
     filled = raw.copy() if good.all() else np.interp(index, known, raw[good])

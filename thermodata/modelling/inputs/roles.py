@@ -64,6 +64,8 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
             where=f"calibrate_on, model '{spec.name}'",
             expected="calibrate_on: [...], or tests with role: calibration",
             got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all",
+            hint="name tests under calibrate_on in the model file, or give one 'role: calibration' in "
+            "the campaign file",
         )
     return Roles(*named)
 
@@ -93,7 +95,10 @@ def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ..
             raise unknown_name("test", name, _choices(name, data), where=where)
         if len(hits) > 1:
             raise SpecError(
-                f"test '{name}' is in several campaigns", where=where, expected=" or ".join("/".join(h) for h in hits)
+                f"test '{name}' is in several campaigns",
+                where=where,
+                expected=" or ".join("/".join(h) for h in hits),
+                hint="name it with its campaign: campaign/test",
             )
         keys.append(hits[0])
     return tuple(dict.fromkeys(keys))

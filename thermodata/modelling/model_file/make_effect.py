@@ -56,7 +56,13 @@ def make_effect(
         return cast(Effect, transfer.FreeFunction(spec.method or "varpro", spec.orders or (2, 2)))
     if spec.effect == prediction.NAME:
         if spec.file is None:
-            raise SpecError("an effect 'prediction' needs 'file'", where=where, expected="file: theirs.csv")
+            raise SpecError(
+                "an effect 'prediction' needs 'file'",
+                where=where,
+                expected="file: theirs.csv",
+                hint="write the other model's prediction as CSV with the columns test, t_s, predicted, and "
+                "name that file",
+            )
         return cast(Effect, prediction.read_prediction((base or Path()) / spec.file, response, unit))
     for key, owner in _OWNED.items():
         if getattr(spec, key) is not None:

@@ -55,7 +55,12 @@ def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit
     """The effect that `{effect: model, name: ...}` means. channel: the response that it is used for; campaigns: whose
     data are at hand. SpecError where the model was not looked up, or has no response to take."""
     if spec.inside is None:
-        raise SpecError("an effect 'model' needs the name of a model", where=where, expected="name: frame")
+        raise SpecError(
+            "an effect 'model' needs the name of a model",
+            where=where,
+            expected="name: frame",
+            hint="'thermodata models' lists them",
+        )
     inside = Model.model_validate(spec.inside)
     if missing := [c for c in inside.campaign_ids if c not in campaigns]:
         raise SpecError(
@@ -63,6 +68,7 @@ def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit
             where=where,
             expected=f"campaigns: [{', '.join(dict.fromkeys((*campaigns, *inside.campaign_ids)))}]",
             got=f"without {', '.join(missing)}",
+            hint="list its campaigns in this model, too",
         )
     try:
         responses = fit(inside).responses
@@ -75,6 +81,7 @@ def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit
             where=where,
             expected="one, or one that is the response here",
             got=", ".join(r.name for r in responses),
+            hint="fit a model of that one response by itself, and name it here",
         )
     word = spec.gain if isinstance(spec.gain, str) else GAIN
     taken = same[0] if spec.parts is None else _parts(same[0], spec.parts, f"effect '{where}': parts")

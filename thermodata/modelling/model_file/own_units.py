@@ -40,5 +40,9 @@ def in_unit(name: str, value: float, unit: str, where: str | None) -> float:
         return value_in(value.text, unit)
     except UsageError as error:
         raise SpecError(
-            f"'{name}' has another unit", where=where, expected=f"{unit}, or what converts to it", got=value.text
+            f"'{name}' has another unit",
+            where=where,
+            expected=f"{unit}, or what converts to it",
+            got=value.text,
+            hint="leave the unit out, which means the parameter's own, or correct it",
         ) from error

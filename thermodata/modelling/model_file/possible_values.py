@@ -61,9 +61,16 @@ def refuse_no_name(spec: EffectSpec, where: str) -> None:
             where=f"{where}.gain",
             expected="a number, which holds the factor on its output: 1.2; or a name, which leaves it free: K",
             got=spec.gain,
+            hint="a name begins with a letter and has letters, digits and _ only",
         )
     if isinstance(spec.gain, float) and not isfinite(spec.gain):
-        raise SpecError("'gain' is no finite number", where=f"{where}.gain", expected="a number", got=str(spec.gain))
+        raise SpecError(
+            "'gain' is no finite number",
+            where=f"{where}.gain",
+            expected="a number",
+            got=str(spec.gain),
+            hint="leave 'gain' out, which leaves it free",
+        )
 
 
 def refuse_unknown_groups(spec: EffectSpec, data: Dataset, where: str) -> None:
@@ -101,6 +108,7 @@ def _bounds(where: str, name: str, given: tuple[float, float], ends: tuple[float
             where=where,
             expected=_range((given[1], given[0])),
             got=_range(given),
+            hint="put the lower one first",
         )
     if low == high:
         raise SpecError(
@@ -108,12 +116,19 @@ def _bounds(where: str, name: str, given: tuple[float, float], ends: tuple[float
             where=where,
             expected=f"fixed: {{{name}: {_text(given[0])}}}, or a lower and a higher one",
             got=_range(given),
+            hint="'fixed' holds a parameter; 'bounds' is where it is searched for",
         )
 
 
 def _value(where: str, name: str, given: float, value: float, param: Param | None, got: str | None = None) -> None:
     if not isfinite(value):
-        raise SpecError(f"'{name}' is no finite number", where=where, expected="a number", got=got or _text(given))
+        raise SpecError(
+            f"'{name}' is no finite number",
+            where=where,
+            expected="a number",
+            got=got or _text(given),
+            hint="leave it out, which lets the fit search for it",
+        )
     if param is not None and value < 0 <= param.lower and converts(param.unit, "s"):
         raise SpecError(
             f"'{name}' is a time, and none is below zero",

@@ -65,6 +65,7 @@ class Prediction(OfTests):
                 where=self.file,
                 expected=", ".join(self.tables),
                 got=test.test,
+                hint="add its rows, or keep the test out of this model's fit and scores",
             )
         return self.tables[key].at(test.t_s).reshape(-1, 1)
 
@@ -112,6 +113,7 @@ def read_prediction(path: Path, channels: Mapping[str, str] | None = None, unit:
             where=f"{path}:{empty[0] if empty else 1}",
             expected="numbers in the column 'predicted'",
             got=f"none in {counted(count, 'row')}",
+            hint="write the predictions as plain numbers; what is not predicted may stay empty",
         )
     tables = {test: series for test, own in rows.items() if np.isfinite((series := _series(own, test, path)).y).any()}
     return Prediction(tables, path.name, _notes(path, empty, count, [test for test in rows if test not in tables]))

@@ -59,7 +59,12 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
             hint="thermodata predict MODEL CAMPAIGN --out FILE.csv writes one",
         ) from None
     except OSError as error:
-        raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
+        raise SpecError(
+            "the prediction file cannot be read",
+            where=str(path),
+            got=str(error),
+            hint="a relative path counts from the folder of the model file; the file is a CSV in UTF-8",
+        ) from None
     header = _header(cells.header, unit, path, cells.at)
     file = str(path)  # a path is made to text anew each time it is told
     used = [(line, _named(row, header, f"{file}:{line}")) for line, row in cells.rows]
@@ -99,7 +104,13 @@ def _named(cells: Sequence[str], header: _Header, where: str) -> dict[str, str]:
 
 def _key(campaign: str, test: str, where: str) -> str:
     if not test:
-        raise SpecError("the row names no test", where=where, expected="a test's id", got="nothing")
+        raise SpecError(
+            "the row names no test",
+            where=where,
+            expected="a test's id",
+            got="nothing",
+            hint="fill the column 'test' in every row, or leave the row out",
+        )
     return test if not campaign or test.startswith(f"{campaign}/") else f"{campaign}/{test}"
 
 
@@ -127,7 +138,13 @@ def _header(titles: Sequence[str], unit: str | None, path: Path, line: int) -> _
         name, own = split_unit(title)
         key = name.strip().lower()
         if key in column and key in (*_KNOWN, "t"):
-            raise SpecError(f"two columns '{key}'", where=where, expected="one", got=f"{column[key]}, {title}")
+            raise SpecError(
+                f"two columns '{key}'",
+                where=where,
+                expected="one",
+                got=f"{column[key]}, {title}",
+                hint="leave one of the two out of the file",
+            )
         column[key], units[key], at[key] = title, own, i
     if "t_s" not in column and "t" in column:
         column["t_s"], units["t_s"], at["t_s"] = column["t"], units["t"], at["t"]
@@ -137,6 +154,7 @@ def _header(titles: Sequence[str], unit: str | None, path: Path, line: int) -> _
             where=where,
             expected=f"t [{units['t_s']}], or t_s",
             got=column["t_s"],
+            hint="correct the column's header",
         )
     for key in _COLUMNS:
         if key not in column:
@@ -165,6 +183,7 @@ def _factor(given: str | None, wanted: str, name: str, where: str) -> float:
             where=where,
             expected=f"{wanted}, or what converts to it",
             got=given,
+            hint="correct the unit in the column's header, or convert the values before",
         ) from None
 
 
@@ -177,7 +196,13 @@ def _number(text: str, column: str, numbers: Numbers, where: str, *, empty: bool
     else:
         value = numbers.value(text)
     if value is None or not math.isfinite(value):
-        raise SpecError(f"'{column}': not a number", where=where, expected=numbers.expected(), got=text or "nothing")
+        raise SpecError(
+            f"'{column}': not a number",
+            where=where,
+            expected=numbers.expected(),
+            got=text or "nothing",
+            hint="leave the cell empty where nothing is predicted",
+        )
     return value
 
 

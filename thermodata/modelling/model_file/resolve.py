@@ -170,5 +170,8 @@ def _channels(data: Dataset, campaign: str) -> dict[str, ChannelInfo]:
                 if name in test.values:
                     shared.setdefault(name, info)
     if not shared:
-        raise UsageError(f"campaign '{campaign}' has no channels with data")
+        raise UsageError(
+            f"campaign '{campaign}' has no channels with data",
+            hint="'thermodata ingest CAMPAIGN.yaml' brings them in; 'thermodata tests' lists what the store holds",
+        )
     return shared

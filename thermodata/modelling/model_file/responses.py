@@ -30,6 +30,7 @@ def known_responses(spec: Model, by_campaign: Mapping[str, Mapping[str, ChannelI
                 where=f"effect '{name}': acts_on",
                 expected=f"some of {', '.join(modelled)}",
                 got=", ".join(acted_on) or "none",
+                hint="leave 'acts_on' out where it acts on all of them",
             )
 
 

@@ -46,6 +46,7 @@ class FreeFunction:
                 expected=f"two whole numbers from 1 to {MOST}"
                 + ("; the first is one more than the second for a direct term" if method == "varpro" else ""),
                 got=str(list(orders)),
+                hint="'thermodata orders MODEL' tries several, and says what the tests bear out",
             )
         self.method, self.orders = method, orders
         self.name, self.needs = NAME, _ANY
@@ -114,11 +115,24 @@ class GivenFunction:
         self.meaning = f"given function, {len(num)} over {len(den)} coefficients"
         lead = 0 if sample_s is not None else -1
         if not len(self.num) or not len(self.den) or self.den[lead] == 0:
-            raise SpecError("a transfer function without a leading denominator coefficient", where=where)
+            raise SpecError(
+                "a transfer function without a leading denominator coefficient",
+                where=where,
+                hint="give what stands before the output of now (in z), or before the highest power of s",
+            )
         if sample_s is None and len(self.num) > len(self.den):
-            raise SpecError("a transfer function with more numerator than denominator coefficients", where=where)
+            raise SpecError(
+                "a transfer function with more numerator than denominator coefficients",
+                where=where,
+                hint="leave the highest of the numerator out: no machine answers a step faster than it is made",
+            )
         if sample_s is not None and sample_s <= 0:
-            raise SpecError("the sample time of a transfer function is positive", where=where, got=f"{sample_s}")
+            raise SpecError(
+                "the sample time of a transfer function is positive",
+                where=where,
+                got=f"{sample_s}",
+                hint="fixed: {sample_s: 60, ...}, the step at which it was identified",
+            )
         self._stable(where)
 
     @property
@@ -177,7 +191,12 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
     for name, numbers in lists.items():
         order = sorted(numbers)
         if order[0] not in (0, 1) or any(b - a != 1 for a, b in pairwise(order)):
-            raise SpecError(f"coefficients {name}0, {name}1, ... with a hole", where=where, got=str(order))
+            raise SpecError(
+                f"coefficients {name}0, {name}1, ... with a hole",
+                where=where,
+                got=str(order),
+                hint="write 0 for those that are none",
+            )
     if "num" in lists or "den" in lists:
         return GivenFunction(
             _run(lists.get("num", {})), _run(lists.get("den", {})), None, fixed.get("time_s", 1.0), where

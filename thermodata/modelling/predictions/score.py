@@ -13,6 +13,7 @@ import numpy as np
 from thermodata.modelling.inputs.phases import phases
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.result import Score
 from thermodata.view.grid.dataset import Dataset, TestData
@@ -70,7 +71,7 @@ def figures(measured: Float1D, residual: Float1D) -> dict[str, float | None]:
         return dict.fromkeys(("fit", "rmse_um", "ptp_um", "ptp_residual_um", "max_um"))
     return {
         "fit": fit_percent(measured, residual),
-        "rmse_um": float(np.sqrt(np.mean(residual**2))),
+        "rmse_um": rms([residual]),
         "ptp_um": float(np.ptp(measured)),
         "ptp_residual_um": float(np.ptp(residual)),
         "max_um": float(np.max(np.abs(residual))),

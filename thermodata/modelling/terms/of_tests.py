@@ -39,4 +39,7 @@ class OfTests(ABC):
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         """Raises SpecError: see `column`."""
-        raise SpecError(f"a {self.name} belongs to tests, it has no drivers")
+        raise SpecError(
+            f"a {self.name} belongs to tests, it has no drivers",
+            hint="leave 'drivers' out of this effect",
+        )

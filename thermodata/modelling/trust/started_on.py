@@ -18,6 +18,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.nuisance import WARM
 from thermodata.modelling.terms.of_tests import OfTests
+from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.begins_on import IF_SO, begins_on, values_of
 from thermodata.schema.answers.result import Check
@@ -61,13 +62,13 @@ def started_on(response: FittedResponse, test: TestData) -> StartedOn | None:
     if not names:
         return None
     residual, zero = response.residual(test), response.offset_from(test)
-    before, best = _rms(residual[counts]), None
+    before, best = rms([residual[counts]]), None
     for some in dict.fromkeys([*((name,) for name in names), tuple(names)]):
         twice = np.zeros(len(test.t_s))
         for term, texts in running:
             roles = [role for role, text in texts.items() if text in some]
             twice += _had_run(term, test, roles) if roles else 0.0
-        left = _rms((residual - twice + twice[zero].mean())[counts])
+        left = rms([(residual - twice + twice[zero].mean())[counts]])
         acting = [term for term, texts in running if any(text in some for text in texts.values())]
         if left < LEFT * before and (best is None or left < best.left) and not _acts_less(left, response, test, acting):
             values = {name: _first(test, name) for name in some}
@@ -143,7 +144,7 @@ def _acts_less(left: float, response: FittedResponse, test: TestData, terms: Seq
     basis = (basis - basis[zero].mean(axis=0))[counts]
     residual = response.residual(test)[counts]
     gains = np.linalg.lstsq(basis, residual, rcond=None)[0]
-    return _rms(residual - basis @ gains) < CLEARLY * left
+    return rms([residual - basis @ gains]) < CLEARLY * left
 
 
 def _faded_after(test: TestData, twice: Float1D) -> float | None:
@@ -158,7 +159,3 @@ def _first(test: TestData, text: str) -> str:
     info = test.channels.get(text)
     unit = f" {info.unit}" if info is not None and info.unit not in ("", "1") else ""
     return f"{raw[good][0]:.4g}{unit}"
-
-
-def _rms(values: Float1D) -> float:
-    return float(np.sqrt(np.mean(values**2)))

@@ -133,7 +133,12 @@ def with_gain_by(spec: Model, term: str, by: str) -> Model:
             hint=f"name it: {gain_by_id(term, 'conditions.NAME')}",
         )
     if by.removeprefix("conditions.") in old.gains_by:
-        raise UsageError("the effect has a gain for each of them already", where=where, got=f"gain_by: {old.gain_by}")
+        raise UsageError(
+            "the effect has a gain for each of them already",
+            where=where,
+            got=f"gain_by: {old.gain_by}",
+            hint="add another candidate; 'thermodata show MODEL' shows what the model has",
+        )
     more = [*old.gains_by, by] if old.gains_by else by
     effects = [e if e is not old else e.model_copy(update={"gain_by": more}) for e in spec.effects]
     return spec.model_copy(update={"effects": effects, **_CHOSEN_NOW})
@@ -149,9 +154,15 @@ def with_phases(spec: Model, term: str, phases: Sequence[str]) -> Model:
             where=where,
             expected=phases_id(term, ("heating", "cooling")),
             got=phases_id(term, phases),
+            hint="name the phases as 'thermodata diagnose MODEL' does",
         )
     if old.phases is not None:
-        raise UsageError("the effect acts in some phases only already", where=where, got=f"phases: {old.phases}")
+        raise UsageError(
+            "the effect acts in some phases only already",
+            where=where,
+            got=f"phases: {old.phases}",
+            hint="change 'phases' of the effect in the model file, and fit it again",
+        )
     parted = [
         old.model_copy(update={"id": name, "phases": [phase]})
         for name, phase in zip(phase_ids(term, phases), phases, strict=True)

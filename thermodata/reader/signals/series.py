@@ -48,6 +48,7 @@ class Declaration:
             where="the source",
             expected=f"{form.format('[host, sensor]')} or {form.format(NEVER)}",
             got=repr(said),
+            hint="name the columns whose words tell one sensor from another",
         )
 
     def within(self, names: Collection[str], before: str) -> Declaration:
@@ -66,6 +67,7 @@ class Declaration:
                     where="the source",
                     expected=", ".join(list(names)[:10]),
                     got=self.form.format(f"[{', '.join(self.columns or ())}]"),
+                    hint="take a name from the file's header; 'thermodata preview FILE' shows them",
                 )
 
     def declined(self) -> str:

@@ -182,6 +182,7 @@ def check_unit(text: str, where: str) -> str:
         where=where,
         got=text,
         expected=", ".join(k for k in SECONDS if k.isascii()) + "; or, counted from a date, " + ", ".join(EPOCHS),
+        hint="declare it: table: {time: {column: NAME, unit: s}}",
     )
 
 

@@ -28,7 +28,12 @@ def zone(name: str) -> ZoneInfo:
     try:
         return ZoneInfo(name)
     except (ZoneInfoNotFoundError, ValueError, OSError):
-        raise UsageError(f"no time zone '{name}'", expected="an IANA name such as Europe/Prague", got=name) from None
+        raise UsageError(
+            f"no time zone '{name}'",
+            expected="an IANA name such as Europe/Prague",
+            got=name,
+            hint="a city of the zone, Continent/City; 'UTC' where the clock has no summer time",
+        ) from None
 
 
 def _offset_ns(tz: ZoneInfo, utc_s: int) -> int:

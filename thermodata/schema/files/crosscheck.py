@@ -41,6 +41,7 @@ def _calibrations(campaign: Campaign, document: Document) -> None:
                     where=document.where(("calibrations", name, "moves")),
                     expected="for example [100 um, -100 um]",
                     got=str(calibration.moves),
+                    hint="list the moves in the order in which the axis made them, each from where it stood",
                 )
 
 
@@ -56,6 +57,7 @@ def _sources(campaign: Campaign, document: Document) -> None:
                     expected="one of "
                     + (", ".join(sorted({*campaign.sources} - {name})) or "none: it is the only one"),
                     got=name,
+                    hint="leave 'align_to' out of the source whose clock is right",
                 )
             if not source.clock.by and not source.clock.events:
                 raise SpecError(
@@ -63,6 +65,8 @@ def _sources(campaign: Campaign, document: Document) -> None:
                     where=document.where(place),
                     expected="by: [{here: channel_of_this_source, there: channel_of_the_other}], or "
                     "events: [{here: a time, there: the same moment}]",
+                    hint="'by' a quantity that both log, such as the spindle speed; 'events' where a person saw "
+                    "one moment in both",
                 )
             for i, pair in enumerate(source.clock.by):
                 must_be("channel", pair.here, campaign.channels, document, ("sources", name, "clock", "by", i, "here"))
@@ -109,4 +113,5 @@ def _overruled(campaign: Campaign, document: Document) -> None:
                 where=document.where(("overrule", i, "window")),
                 expected="[from, to] with from < to, from the start of the test",
                 got=f"[{rule.window[0]:g} s, {rule.window[1]:g} s]",
+                hint="exchange the two, or leave 'window' out, which means the whole test",
             )

@@ -55,6 +55,8 @@ def _readings(channel: Channel, sensor: Sensor, document: Document, place: Place
                     where=document.where((*place, key)),
                     expected=f"a value in {' or '.join(dict.fromkeys(units))}",
                     got=str(value),
+                    hint="write the value in the unit of the sensor's own output, before its scaling, or of the "
+                    "channel",
                 )
     if sensor.range is not None:
         (low, unit), (high, other) = map(split_value, sensor.range)
@@ -64,6 +66,8 @@ def _readings(channel: Channel, sensor: Sensor, document: Document, place: Place
                 where=document.where((*place, "range")),
                 expected="[low, high] with low < high",
                 got=f"[{sensor.range[0]}, {sensor.range[1]}]",
+                hint="the ends between which the sensor's data sheet lets it measure; without 'range' they "
+                "are looked for in the values",
             )
 
 
@@ -74,6 +78,7 @@ def _in_order(schedule: Sequence[tuple[Value, Value]], document: Document, place
             where=document.where(place),
             expected="[[0 h, 3000 rpm], ...]",
             got="[]",
+            hint="give the value from the start on, [[0 h, ...]], or leave the channel out",
         )
     before: float | None = None
     for i, (at, _) in enumerate(schedule):
@@ -89,5 +94,6 @@ def _in_order(schedule: Sequence[tuple[Value, Value]], document: Document, place
                 where=document.where((*place, i)),
                 expected=f"times that increase: one after {schedule[i - 1][0]}",
                 got=str(at),
+                hint="put its rows in the order of their times",
             )
         before = now

@@ -16,6 +16,7 @@ def check_tests(campaign: Campaign, document: Document) -> None:
             "the campaign has no tests",
             where=document.where(("tests",)),
             expected="tests: [{id: ..., ...}] or tests_from: {files: ...}",
+            hint="'thermodata init FOLDER' drafts a campaign file with the tests that a folder of logs holds",
         )
     seen: dict[str, str] = {}
     for i, test in enumerate(campaign.tests):
@@ -25,6 +26,7 @@ def check_tests(campaign: Campaign, document: Document) -> None:
                 where=document.where(("tests", i, "id")),
                 expected="unique ids, ignoring case",
                 got=seen[test.id.lower()],
+                hint="give one of them another id; a test of several files lists them under its sources",
             )
         seen[test.id.lower()] = test.id
     for i, test in enumerate(campaign.tests):
@@ -64,6 +66,7 @@ def _times(test: Test, place: Place, document: Document) -> None:
             where=document.where((*place, "window")),
             expected="[from, to] with from < to",
             got=f"[{test.window[0]:g} s, {test.window[1]:g} s]",
+            hint="exchange the two: times count from the start of the log, as in [0.5 h, 8 h]",
         )
     if (
         test.window is not None
@@ -75,6 +78,7 @@ def _times(test: Test, place: Place, document: Document) -> None:
             where=document.where((*place, "zero", "over")),
             expected=f"at most the {test.window[1] - test.window[0]:g} s of its window",
             got=f"{test.zero.over:g} s",
+            hint="a shorter 'over' (1 min, say), or a longer window",
         )
     for name, (begin, end) in test.phases.items():
         if end <= begin:
@@ -83,6 +87,7 @@ def _times(test: Test, place: Place, document: Document) -> None:
                 where=document.where((*place, "phases", name)),
                 expected="[from, to] with from < to",
                 got=f"[{begin:g} s, {end:g} s]",
+                hint="exchange the two: times count from the start of the test",
             )
         if test.window is not None and (end <= test.window[0] or begin >= test.window[1]):
             raise SpecError(

@@ -164,6 +164,7 @@ def _conditions(
             where=document.where((*place, "table")),
             expected=f"{spec.table.key} = {fields.get(spec.table.key)}",
             got=f"{len(table)} rows in {spec.table.file}",
+            hint="add the row, correct the key there, or leave the file out by a narrower pattern in 'files'",
         )
     for condition, column in spec.table.columns.items():
         value = _with_unit(row[column], spec.units.get(condition))
@@ -223,6 +224,7 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
             "cannot read the table of tests",
             where=document.where((*place, "table", "file")),
             got=f"{spec.table.file}: {error}",
+            hint="write it anew as CSV with one header row, in UTF-8",
         ) from None
     columns = [str(c) for c in frame.columns]
     for wanted in (spec.table.key, *spec.table.columns.values()):

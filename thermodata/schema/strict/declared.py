@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, JsonValue, ValidationInfo, model_validator
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.units.quantity import linear_conversion, split_value, value_in
+from thermodata.schema.units.quantity import converts, split_value, value_in
 from thermodata.schema.words.slips import slip_of
 
 Value = str | float | int
@@ -76,7 +76,7 @@ def amount(*units: str, words: bool = False) -> BeforeValidator:
             number, written = split_value(value)
         except ThermodataError as error:
             raise _said(error) from None
-        if written and units and not any(_converts(written, unit) for unit in units):
+        if written and units and not any(converts(written, unit) for unit in units):
             right = " or ".join(f"'{number:g} {unit}'" for unit in units)
             raise WrongValueError(
                 f"a value in '{written}'", expected=f"a unit of the kind of {' or '.join(units)}: {right}"
@@ -84,14 +84,6 @@ def amount(*units: str, words: bool = False) -> BeforeValidator:
         return value
 
     return BeforeValidator(judge)
-
-
-def _converts(unit: str, target: str) -> bool:
-    try:
-        linear_conversion(unit, target)
-    except ThermodataError:
-        return False
-    return True
 
 
 def _as_a_path(value: Any) -> Any:

@@ -99,6 +99,8 @@ def read_document(path: Path) -> Document:
             where=str(path),
             expected=f"under {MAX_BYTES} bytes",
             got=str(len(raw)),
+            hint="name the file that describes the logs; measured data belongs into logs, and many tests"
+            " into tests_from",
         )
     try:
         text = raw.decode("utf-8-sig")
@@ -180,6 +182,7 @@ class _Builder:
                 "the file describes too much",
                 where=f"{name}:{line}",
                 expected=f"at most {MAX_NODES} values and {MAX_DEPTH} levels",
+                hint="many alike tests are shorter as tests_from with a pattern of file names",
             )
         self.document.line.setdefault(place, line)
         if isinstance(node, yaml.MappingNode):
@@ -249,7 +252,11 @@ def _key(node: yaml.Node, where: str) -> str:
         return _whole_letters(str(node.value), where)
     if isinstance(node, yaml.SequenceNode) and all(isinstance(part, yaml.ScalarNode) for part in node.value):
         return f"[{', '.join(str(part.value) for part in node.value)}]"
-    raise SpecError("a key must be a word, or a list of words", where=where)
+    raise SpecError(
+        "a key must be a word, or a list of words",
+        where=where,
+        hint="put the key in quotes where it is a number or a date: '2026-03-01': ...",
+    )
 
 
 def at_place(data: Any, place: Sequence[str | int]) -> Any:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.connection import insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.known.files_taken_out import keep_files
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
@@ -55,47 +55,53 @@ def parts_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> dict[str
     return {row["path"]: row["bytes"] if row["layer"] == "tidy" else None for row in rows["file"].get(test, [])}
 
 
-def changes(planned: Planned, inventory: Inventory) -> dict[str, set[str]]:
-    """Table -> the tests whose rows differ from those in the catalogue."""
-    return {table: _changed(planned.rows[table], inventory.rows[table]) for table in BY_TEST}
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """What is to be beside what the catalogue holds. tests: table -> those whose rows differ."""
+
+    planned: Planned
+    inventory: Inventory
+    tests: Mapping[str, set[str]]
+
+    @property
+    def taken_out(self) -> set[str]:
+        """Tests that stand in the catalogue only."""
+        return self.tests["test"] - {t.id for t in self.planned.campaign.tests}
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the catalogue says already what the plan says."""
+        known, planned = self.inventory.campaign, self.planned
+        return (
+            known is not None
+            and (known["spec"] == planned.spec or json.loads(known["spec"]) == json.loads(planned.spec))
+            and same(planned.calibrations, self.inventory.calibrations)
+            and not any(self.tests.values())
+        )
 
 
-def _changed(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
+def difference(planned: Planned, inventory: Inventory) -> Difference:
+    """Compared at once, for a commit holds the catalogue."""
+    tests = {table: _differing(planned.rows[table], inventory.rows[table]) for table in BY_TEST}
+    return Difference(planned, inventory, tests)
+
+
+def _differing(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
     """The tests whose rows of one table differ."""
     return {t for t in planned.keys() | stored.keys() if not same(planned.get(t, []), stored.get(t, []))}
 
 
-def nothing_new(planned: Planned, inventory: Inventory, changed: Mapping[str, set[str]]) -> bool:
-    """Whether the catalogue says already what the plan says. changed: their `changes`."""
-    return (
-        inventory.campaign is not None
-        and (
-            inventory.campaign["spec"] == planned.spec
-            or json.loads(inventory.campaign["spec"]) == json.loads(planned.spec)
-        )
-        and same(planned.calibrations, inventory.calibrations)
-        and not any(changed.values())
-    )
-
-
-def commit(
-    con: duckdb.DuckDBPyConnection,
-    store: Path,
-    planned: Planned,
-    inventory: Inventory,
-    differing: Mapping[str, set[str]],
-    now: datetime,
-) -> list[str]:
+def commit(con: duckdb.DuckDBPyConnection, store: Path, found: Difference, now: datetime) -> list[str]:
     """Brings the campaign's rows to the plan inside the caller's transaction; returns the models gone stale.
 
-    inventory: the state within this same transaction; differing: its `changes`.
-    Raises VanishedError where a planned file isn't there.
+    found: from the inventory within this same transaction. Raises VanishedError where a planned file isn't there.
     """
+    planned, inventory = found.planned, found.inventory
     missing = [p for p in planned.paths() if not os.path.exists(os.path.join(store, p))]
     if missing:
         raise VanishedError(missing[0])
     campaign = planned.campaign.id
-    changed = {t for tests in differing.values() for t in tests}
+    changed = {t for tests in found.tests.values() for t in tests}
     differ = {
         t
         for t in (changed - {""} if is_fitted(con, campaign) else ())
@@ -105,10 +111,10 @@ def commit(
     # what models said of a test that was taken out stays, as their fits do: it may come back
     keep_looks(con, campaign, before - after)
     keep_files(con, campaign, before - after, after)
-    stay = differing["file"] & before & after
+    stay = found.tests["file"] & before & after
     keep_looks_at_changed(con, campaign, planned.rows, stay)
     for table in BY_TEST:
-        _replace_rows(con, table, planned, inventory, differing[table])
+        _replace_rows(con, table, found)
     con.execute(
         "update test set start = make_timestamp_ns(start_ns) where campaign = ? and start_ns is not null "
         "and start is null",
@@ -122,15 +128,13 @@ def commit(
     return stale
 
 
-def _replace_rows(
-    con: duckdb.DuckDBPyConnection, table: str, planned: Planned, inventory: Inventory, differ: set[str]
-) -> None:
+def _replace_rows(con: duckdb.DuckDBPyConnection, table: str, found: Difference) -> None:
     """The rows of one table of the tests that differ in it."""
-    wanted, campaign = planned.rows[table], planned.campaign.id
-    gone = differ
-    if table == "test" and (gone or list(wanted) != list(inventory.rows[table])):
+    wanted, stored, campaign = found.planned.rows[table], found.inventory.rows[table], found.planned.campaign.id
+    gone = found.tests[table]
+    if table == "test" and (gone or list(wanted) != list(stored)):
         # it keeps the order of the campaign file, so all of its rows are written again
-        gone = {*wanted, *inventory.rows[table]}
+        gone = {*wanted, *stored}
     if gone:
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(gone)])
     insert(con, table, [row for test, rows in wanted.items() if test in gone for row in rows])
@@ -151,16 +155,3 @@ def _replace_campaign(con: duckdb.DuckDBPyConnection, planned: Planned, now: dat
         "data_version": planned.data_version(),
     }
     insert(con, "campaign", [row])
-
-
-def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are forgotten, wherever it stands; that their locks were opened
-    stays."""
-    for table in ("prediction", "score_row", "finding") if tests else ():
-        con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
-    for row in fetch(con, "select model, result from model where list_contains(campaigns, ?)", [campaign]):
-        result = json.loads(row["result"])
-        for scored in ("scores", "before"):
-            if result.get(scored):
-                result[scored] = [s for s in result[scored] if s["campaign"] != campaign or s["test"] not in tests]
-        con.execute("update model set result = ? where model = ?", [json.dumps(result), row["model"]])

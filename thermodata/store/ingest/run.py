@@ -21,7 +21,7 @@ from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.another_campaign import is_same_place, refuse_another
 from thermodata.store.ingest.catalogue_rows import calibration_row
-from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
+from thermodata.store.ingest.commit import Difference, Planned, VanishedError, commit, difference, parts_of
 from thermodata.store.ingest.known.files_taken_out import files_taken_out
 from thermodata.store.ingest.known.inventory import Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
@@ -136,15 +136,14 @@ def _ingest(
     again = summary.again()
     # where no log stands nothing says whose place it is: a file that was copied for the next tests, which are to come
     place = path.absolute() if listed or inventory.campaign is None else Path(inventory.campaign["path"])
-    planned = _planned(layers, place, rows, notes)
-    changed = changes(planned, inventory)
-    if layers.is_as_stored and nothing_new(planned, inventory, changed):
+    found = difference(_planned(layers, place, rows, notes), inventory)
+    if layers.is_as_stored and found.is_none:
         summary = again
         mark = _keep_place(store, mark, inventory, place)
     else:
         mark = new_mark()
         before = None if in_its_place else refuse
-        summary.stale, gone = _commit(store, mark, planned, inventory, changed, left, now, before)
+        summary.stale, gone = _commit(store, mark, found, now, left, before)
         summary.changed = True
         summary.notes += [*taken_out(gone), *read_by_another(inventory, rows["file"])]
         if summary.stale:
@@ -241,27 +240,22 @@ def _planned(
 def _commit(
     store: Store,
     mark: str,
-    planned: Planned,
-    inventory: Inventory,
-    changed: dict[str, set[str]],
-    left: LeftAlone,
+    found: Difference,
     now: datetime,
+    left: LeftAlone,
     refuse: Callable[[Inventory], None] | None,
 ) -> tuple[list[str], set[str]]:
-    """(models gone stale, tests that were taken out). mark: of the commit; inventory: the state that the plan was made
-    from; changed: their `changes`; refuse: takes no other campaign's place; None where it may.
-    OtherwiseError where tests were left alone and another commit came meanwhile."""
-    campaign = planned.campaign
+    """(models gone stale, tests that were taken out). mark: of the commit; refuse: takes no other campaign's place;
+    None where it may. OtherwiseError where tests were left alone and another commit came meanwhile."""
     with store.write(mark=mark) as con:
-        if generation_of(con) != inventory.generation:
+        if generation_of(con) != found.inventory.generation:
             if left.tests:
                 raise OtherwiseError("another commit")
-            inventory = read_inventory(con, None, campaign.id)
+            found = difference(found.planned, read_inventory(con, None, found.planned.campaign.id))
             if refuse is not None:
-                refuse(inventory)
-            changed = changes(planned, inventory)
-        stale = commit(con, store.path, planned, inventory, changed, now)
-    return stale, changed["test"] - {t.id for t in campaign.tests}
+                refuse(found.inventory)
+        stale = commit(con, store.path, found, now)
+    return stale, found.taken_out
 
 
 __all__ = ["checked", "ingest", "store_for"]

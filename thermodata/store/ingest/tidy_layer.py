@@ -20,7 +20,7 @@ from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote, columns_of, estimated
-from thermodata.store.ingest.tidy_rows import count, duration_s, step_s, tidy_rows
+from thermodata.store.ingest.tidy_rows import StreamOfTest, count, duration_s, step_s, tidy_rows
 from thermodata.store.ingest.told.beyond_the_end import beyond_the_end
 from thermodata.store.ingest.told.empty_channels import empty_channels
 from thermodata.store.ingest.told.jumps_inside import tell_jumps_inside
@@ -232,8 +232,8 @@ class _Tidier:
         return member_key(test.plan, member, self.columns[member], test.clocks, test.where, self.texts)
 
     def _write(self, test: _Tidied, series: TestSeries, member: Member, base: str, verdict: Verdict) -> None:
-        name, campaign = test.plan.test.id, test.plan.campaign.id
-        self.making.say(f"{name}: {member[0]}/{member[1]}")
+        making, name = self.making, test.plan.test.id
+        making.say(f"{name}: {member[0]}/{member[1]}")
         said = verdict.to_json()
         key = key_of(base, json.dumps(said, sort_keys=True)) if said else base
         result = write_member(series, member, self.columns[member], key, verdict)
@@ -242,11 +242,9 @@ class _Tidier:
             test.files[member] = test.events[member] = []
             return
         self.layer.new_streams += 1
-        test.files[member] = tidy_rows(campaign, name, member, result, self.making.store, self.making.now, base, said)
-        test.events[member] = [
-            {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
-            for e in result.events
-        ]
+        of = StreamOfTest(test.plan.campaign.id, name, *member)
+        test.files[member] = tidy_rows(of, result, making.store, making.now, base, said)
+        test.events[member] = [dataclasses.asdict(of) | dataclasses.asdict(e) for e in result.events]
 
 
 def _add_rows(layer: TidyLayer, tidied: _Tidied, making: Making) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -15,21 +16,23 @@ from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.told.losses import loss_row
 from thermodata.store.ingest.told.repeated_times import said_of_repeats
 from thermodata.store.tidy.plan.plan import TestPlan
-from thermodata.store.tidy.values.series import Member
 from thermodata.store.tidy.writer import TidyResult
 
 
+@dataclass(frozen=True, slots=True)
+class StreamOfTest:
+    """A stream of a test, as rows of the catalogue name it."""
+
+    campaign: str
+    test: str
+    source: str
+    stream: str
+
+
 def tidy_rows(
-    campaign: str,
-    test: str,
-    member: Member,
-    result: TidyResult,
-    store: Path,
-    now: datetime,
-    base: str,
-    verdict: Mapping[str, Any],
+    of: StreamOfTest, result: TidyResult, store: Path, now: datetime, base: str, verdict: Mapping[str, Any]
 ) -> list[Row]:
-    """Rows of `file` of what was written of a member in a test; what concerns all of it stands with the last."""
+    """Rows of `file` of what was written of a stream; what concerns all of it stands with the last."""
     rows: list[Row] = []
     for file in result.files:
         meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
@@ -42,10 +45,7 @@ def tidy_rows(
             meta |= {"filled": sorted(result.filled)}
         rows.append(
             {
-                "campaign": campaign,
-                "test": test,
-                "source": member[0],
-                "stream": member[1],
+                **dataclasses.asdict(of),
                 "layer": "tidy",
                 "part": file.part,
                 "key": file.key,

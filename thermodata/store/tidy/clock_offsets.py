@@ -214,6 +214,7 @@ def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str)
                 got=str(moment),
                 where=f"sources.{source.name}.clock.events.{where}",
                 expected="a time since its first sample, e.g. 12.5 min",
+                hint="give the moment as this source counts, or date its start with the test's 'start'",
             )
     return int(clock.correct(np.array([recorded], np.int64), first)[0])
 
@@ -226,7 +227,11 @@ def _by_channels(series: TestSeries, source: SourcePlan, reasons: list[str]) -> 
         try:
             for name in (pair.here, pair.there):
                 if name not in series.plan.bound:
-                    raise SpecError(f"no channel '{name}' in this test")
+                    raise SpecError(
+                        f"no channel '{name}' in this test",
+                        hint="align by a channel that both sources log in every test, or give this test's clock "
+                        "under its 'clocks'",
+                    )
             estimate = estimate_offset(*_column(series, pair.here), *_column(series, pair.there))
         except ThermodataError as error:
             reasons.append("; ".join(str(error).splitlines()))

@@ -24,7 +24,13 @@ def seconds_at(store: Store, campaign: str, test: str, text: str) -> tuple[float
     try:
         at = datetime.fromisoformat(text)
     except ValueError:
-        raise UsageError("a time", where="--at", expected=FORMS, got=text) from None
+        raise UsageError(
+            "a time",
+            where="--at",
+            expected=FORMS,
+            got=text,
+            hint="the time from the test's start, in s, min or h, works for every log",
+        ) from None
     with store.reader() as con:
         row = con.execute(
             "select start_ns, clock from test where campaign = ? and test = ?", [campaign, test]
@@ -34,7 +40,10 @@ def seconds_at(store: Store, campaign: str, test: str, text: str) -> tuple[float
     start_ns, clock = row
     if start_ns is None or clock != "absolute":
         raise UsageError(
-            f"the logs of test '{test}' have no date", where="--at", expected="'2.5 h' from its start", got=text
+            f"the logs of test '{test}' have no date",
+            where="--at",
+            expected="'2.5 h' from its start",
+            got=text,
         )
     said = None
     if at.tzinfo is None:

@@ -97,7 +97,10 @@ def _tidy_row(
                 "tidy": {"path": file["path"], "row": listed[0]["row"]},
             }
     if best is None:
-        raise UsageError(f"channel '{name}' has no samples in test '{test}'")
+        raise UsageError(
+            f"channel '{name}' has no samples in test '{test}'",
+            hint="'thermodata channels' says which tests have it",
+        )
     (known,) = fetch(con, "select duration_s from test where campaign = ? and test = ?", [campaign, test])
     end_s = max(float(known["duration_s"] or 0.0), best["t_s"])
     near_s = max(_NEAR_S, _NEAR * end_s)

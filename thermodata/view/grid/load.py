@@ -45,7 +45,12 @@ def load_dataset(
     Raises UsageError for a step that is not positive, and for a campaign or channel that the store has not.
     """
     if not step_s > 0 or not np.isfinite(step_s):
-        raise UsageError("a step is positive", expected="seconds, for example 30", got=str(step_s))
+        raise UsageError(
+            "a step is positive",
+            expected="seconds, for example 30",
+            got=str(step_s),
+            hint="30 s to 5 min suit what is thermal",
+        )
     wanted = [campaigns] if isinstance(campaigns, str) else list(dict.fromkeys(campaigns))
     with _opened(store).reader() as con:
         found = versions(con)

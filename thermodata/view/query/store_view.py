@@ -82,7 +82,12 @@ class StoreView:
             hint = unknown_column_hint(con, query, error) if parsed else reserved_hint(query)
             raise UsageError("the query fails", got=str(error).strip(), hint=hint) from error
         if relation is None:
-            raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
+            raise UsageError(
+                "the query gives no table",
+                expected="SELECT, FROM, DESCRIBE or SHOW",
+                got=query,
+                hint="begin it with one of these: the store is written by 'ingest', 'fit' and 'diagnose' alone",
+            )
         flagged = self.values_that_do_not_count(query, relation.columns)
         if flagged is not None and tell is not None:
             tell(flagged)
@@ -155,7 +160,12 @@ class StoreView:
             return named[-1]
         begun = [str(model) for model in ids if model.startswith(ref)] if ref else []
         if len(begun) > 1:
-            raise UsageError(f"'{ref}' begins several models", expected=", ".join(begun), got=ref)
+            raise UsageError(
+                f"'{ref}' begins several models",
+                expected=", ".join(begun),
+                got=ref,
+                hint="give more of the id",
+            )
         if not begun:
             raise unknown_name("model", ref, [*dict.fromkeys(str(name) for _, name in rows), *ids])
         return begun[0]

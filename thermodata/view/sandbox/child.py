@@ -51,7 +51,12 @@ def _answer(request: dict[str, Any], sink: IO[bytes]) -> None:
     check_select(con, request["query"])
     relation = con.sql(request["query"])
     if relation is None:
-        raise UsageError("the query gives no table", expected="a SELECT", got=request["query"])
+        raise UsageError(
+            "the query gives no table",
+            expected="a SELECT",
+            got=request["query"],
+            hint="begin it with SELECT or FROM: nothing can be changed here",
+        )
     head: dict[str, Any] = {"columns": [[n, str(t)] for n, t in zip(relation.columns, relation.types, strict=True)]}
     most = int(request["rows"])
     if request["form"] == "table":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from thermodata.virtual import benchmark as gantry
+from thermodata.virtual.gantry import case as gantry
 from thermodata.virtual.lathe import case as lathe
 from thermodata.virtual.lathe import strata as lathes
 from thermodata.virtual.truth.case import Case

@@ -20,10 +20,17 @@ def show(request: Request) -> Response:
     path = desk.inside(given.get("file", ""))
     name = given.get("calibration", "")
     if not path.is_file():
-        raise UsageError("there is no such campaign file", where=str(path))
+        raise UsageError(
+            "there is no such campaign file",
+            where=str(path),
+            hint="choose the file anew on the first page: it may have been moved or renamed",
+        )
     asked = next((q for q in questions(path.read_text("utf-8")) if q.kind == "moves" and q.about == name), None)
     if asked is None:
-        raise UsageError(f"no question for the jump test '{name}'")
+        raise UsageError(
+            f"no question for the jump test '{name}'",
+            hint="the file was changed meanwhile: load the page again",
+        )
     why, seen = "", None
     try:
         seen = jump_seen(path, name, desk.inside)

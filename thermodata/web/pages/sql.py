@@ -93,7 +93,12 @@ def _flagged(store: Store, query: str, table: Table | None) -> str | None:
 
 def _short(query: str) -> str:
     if len(query) > _MOST_QUERY:
-        raise UsageError("the query is too long", expected=f"at most {_MOST_QUERY} letters", got=str(len(query)))
+        raise UsageError(
+            "the query is too long",
+            expected=f"at most {_MOST_QUERY} letters",
+            got=str(len(query)),
+            hint="'thermodata sql < FILE' takes longer ones",
+        )
     return query
 
 

@@ -229,7 +229,10 @@ def _moves(form: dict[str, str]) -> dict[str, str]:
         if not all(ordered):
             lacking = [str(k + 1) for k in sorted(each) if not each[k]]
             raise UsageError(
-                "a jump test needs the move of every step", where=name, got=f"none at step {', '.join(lacking)}"
+                "a jump test needs the move of every step",
+                where=name,
+                got=f"none at step {', '.join(lacking)}",
+                hint="give each the way from where the axis stood, such as 100 um or -100 um",
             )
         moves[name] = ", ".join(ordered)
     return moves

@@ -92,7 +92,11 @@ def stretch(request: Request) -> Response:
     channels = channels_of(store, campaign, test)
     from_s, to_s = seconds_in(given, "from"), seconds_in(given, "to")
     if from_s is None or to_s is None or not from_s < to_s:
-        raise UsageError("a stretch has a beginning and an end", expected="from < to, in seconds")
+        raise UsageError(
+            "a stretch has a beginning and an end",
+            expected="from < to, in seconds",
+            hint="draw it from left to right in the chart, or give both",
+        )
     models = [m for m in model_rows(store) if campaign in m.campaigns]
     found = _predicted(store, _model(store, models, given), given)
     return page(

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D
+from thermodata.reader.text.file.lines import split_last_line
 from thermodata.reader.text.rows.grid import BadLine, Grid
 from thermodata.reader.text.rows.typed import parse
 from thermodata.schema.flag import Flag
@@ -86,3 +87,11 @@ def _with(bad: Sequence[BadLine], more: Sequence[int], data: bytes, line: int) -
             text = lines[number - line].rstrip(b"\r")
             added.append(BadLine(number, 0, text[:_SHOWN].decode("utf-8", "replace"), len(text)))
     return tuple(sorted([*bad, *added], key=lambda each: each.line))
+
+
+def without_end(data: bytes, mark: bytes) -> tuple[bytes, bytes]:
+    """(whole lines of a part of a file, what stands behind them), without the mark that ends the rows, alone in a
+    line."""
+    lines, tail = split_last_line(data)
+    rows, last = split_last_line(lines.rstrip(b"\r\n"))
+    return (rows if last.strip() == mark else lines), (b"" if tail.strip() in (b"", mark) else tail)

@@ -55,7 +55,7 @@ class Reader:
             return None
         import tempfile
 
-        from thermodata_reader_table.workbook_beginning import beginning
+        from thermodata_reader_table.workbook.beginning import beginning
 
         folder = tempfile.TemporaryDirectory(prefix="thermodata-")
         small = beginning(path, Path(folder.name))

@@ -162,7 +162,12 @@ def declared_format(text: str) -> TimeFormat:
     letters = set(re.findall(r"%(.)", text))
     for needed, what in (("YyGcx", "a year: %Y or %y"), ("mbBjUWVcx", "a month: %m or %b")):
         if letters & (_CALENDAR | set("cx")) and not letters & set(needed):
-            raise FormatError(f"time format '{text}' cannot be used", expected=what, got="a day without it")
+            raise FormatError(
+                f"time format '{text}' cannot be used",
+                expected=what,
+                got="a day without it",
+                hint="add what is missing to the format, or leave 'format' out, so that it is told by the cells",
+            )
     if letters - _STRPTIME.keys() and letters <= _STRPTIME.keys() | _OTHERS:
         role = "datetime" if letters & set("HIcX") else "date"
         return TimeFormat(role, None, text, zoned="z" in letters or None, strptime=text)
@@ -175,7 +180,10 @@ def declared_format(text: str) -> TimeFormat:
             used.add(part[1:])
         else:
             raise FormatError(
-                f"time format '{text}' cannot be used", expected="%Y %y %m %d %b %H %I %M %S %f %p %z", got=part
+                f"time format '{text}' cannot be used",
+                expected="%Y %y %m %d %b %H %I %M %S %f %p %z",
+                got=part,
+                hint="write the rest of a cell as it stands there; leave 'format' out, so that it is told by the cells",
             )
     day, clock = bool(used & _CALENDAR), bool(used & {"H", "I"})
     if "M" in used and not day and not clock:  # '%M:%S' are minutes from a start
@@ -183,7 +191,11 @@ def declared_format(text: str) -> TimeFormat:
     try:
         pattern = _compile(body)
     except re.error as error:
-        raise FormatError(f"time format '{text}' cannot be used", got=str(error)) from None
+        raise FormatError(
+            f"time format '{text}' cannot be used",
+            got=str(error),
+            hint="leave 'format' out, so that it is told by the cells",
+        ) from None
     role = "datetime" if day and clock else "date" if day else "time"
     return TimeFormat(role, pattern, text, zoned=bool(used & {"z", "Z"}) or None, reads=joined_clock(text))
 

@@ -32,7 +32,13 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
     """The place of a declared column (1-based, or by its name), from 0."""
     if isinstance(wanted, int):
         if not 1 <= wanted <= len(names):
-            raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
+            raise FormatError(
+                f"no column {wanted}",
+                where=where,
+                expected=f"1 to {len(names)}",
+                got=str(wanted),
+                hint="columns count from 1; or give the name in the header",
+            )
         return wanted - 1
     if (found := by_name(wanted, names)) is not None:
         return found

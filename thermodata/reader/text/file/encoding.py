@@ -93,7 +93,10 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
             name = codecs.lookup(declared).name
         except LookupError:
             raise FormatError(
-                f"no encoding '{declared}'", expected="utf-8, cp1250, cp1252, utf-16, ...", got=declared
+                f"no encoding '{declared}'",
+                expected="utf-8, cp1250, cp1252, utf-16, ...",
+                got=declared,
+                hint="leave 'encoding' out: it is told by the bytes where these can tell it",
             ) from None
         _try(data, declared)
         return ("utf-8-sig" if name == "utf-8" and data.startswith(codecs.BOM_UTF8) else declared), None

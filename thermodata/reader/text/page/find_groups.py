@@ -60,6 +60,7 @@ def _declared_groups(said: Sequence[Mapping[str, Any]], seen: FirstRows) -> tupl
                 "a time of several without its column",
                 where=seen.where,
                 expected="table: {time: [{column: ...}, {column: ...}]}",
+                hint="name the column of each time",
             )
         wanted = one["column"]
         columns = [
@@ -79,6 +80,7 @@ def _declared_groups(said: Sequence[Mapping[str, Any]], seen: FirstRows) -> tupl
             f"column '{seen.names[twice[0]]}' is declared twice",
             where=seen.where,
             expected="each column once, as a time or as a signal of one",
+            hint="leave it out of one of the two",
         )
     groups, left = [], set(range(width)) - set(times) - taken
     for time, own in found:

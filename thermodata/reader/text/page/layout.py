@@ -119,7 +119,12 @@ def find_layout(
     repeats = repeats_of(rows[skip:first])
     data = _whole_rows([r for r in below if not repeats(r)], width)
     if not data:
-        raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
+        raise FormatError(
+            "a table without data rows",
+            where=where,
+            expected=f"data after row {first}",
+            hint="ask the logger for the export again; a log with nothing in it can be left out of the campaign",
+        )
     lost = list[str]()
     if "header_rows" not in said:
         lost = lines_between(head, header.names, header.units)

@@ -110,7 +110,14 @@ def _refuse_without_values(
 ) -> None:
     """kinds: of the columns beside the time; words: those of them that are text by their cells alone."""
     if not any(kind is not None for kind in kinds.values()):
-        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+        raise FormatError(
+            "no column beside the time",
+            where=where,
+            expected="values",
+            got=", ".join(layout.names),
+            hint="a file of times alone has nothing to read; if one of the columns is none, declare the "
+            "time: table: {time: {column: NAME}}",
+        )
     if all(kind in (None, "str") for kind in kinds.values()):
         refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
 

@@ -148,13 +148,19 @@ def file_inside(folder: Path, name: str, where: str) -> Path:
     try:
         real = (root / name).resolve()
     except (OSError, RuntimeError, ValueError) as error:
-        raise SpecError("a path that leads nowhere", where=where, got=f"{name}: {error}") from error
+        raise SpecError(
+            "a path that leads nowhere",
+            where=where,
+            got=f"{name}: {error}",
+            hint="correct the path: it counts from the folder of the campaign file",
+        ) from error
     if not real.is_relative_to(root):
         raise SpecError(
             "a path leads outside the campaign's folder",
             where=where,
             got=name,
             expected="a file inside the campaign's folder",
+            hint="move or link the logs into the folder of the campaign file, or move that file above them",
         )
     return root / name
 

@@ -79,6 +79,7 @@ def _check_rated(name: str, channel: Channel, where: str) -> None:
             expected="a position: the rate of what a sensor reads is mostly that of its noise and its steps, and an "
             "angle starts anew",
             got=f"quantity: {channel.quantity}",
+            hint="log the position of the axis, or take the channel itself as a driver",
         )
 
 

@@ -28,6 +28,7 @@ def steps(name: str, channel: Channel, test: Test) -> tuple[Float1D, Array]:
                     where=where,
                     got=what,
                     expected=", ".join(f"conditions.{k}" for k in test.conditions) or "none",
+                    hint="add it to the test's conditions, or write the value itself into the schedule",
                 )
             what = test.conditions[key]
         times.append(value_in(at, "s"))

@@ -144,7 +144,11 @@ def _scaled(store: Path, line: Timeline, raw: RawStream, name: str, unit: str, t
     signal = next(s for s in raw.signals if s.name == name)
     column = line.column(store, name, 0, len(line.t_ns))
     if column is None:
-        raise UsageError(f"signal '{name}' has no values", where=raw.source_path)
+        raise UsageError(
+            f"signal '{name}' has no values",
+            where=raw.source_path,
+            hint="take the calibration from another file, or leave it out",
+        )
     values = apply_scaling(signal.scaling, derive.numbers(column) if column.dtype == object else column)
     factor, offset = linear_conversion(unit, target)
     return values * factor + offset

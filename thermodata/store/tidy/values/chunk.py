@@ -149,7 +149,12 @@ class Chunk:
         known = self.series.calibrations
         missing = [n for n in names if n not in known]
         if missing:
-            raise UsageError(f"calibration '{missing[0]}' is not available", where=f"channel {bound.name}")
+            raise UsageError(
+                f"calibration '{missing[0]}' is not available",
+                where=f"channel {bound.name}",
+                hint="mend that calibration first: 'thermodata calibrations' and the losses of 'ingest' say "
+                "what is wrong with it",
+            )
         if bound.is_text:
             return np.array([None if v is None else str(v) for v in raw.tolist()], dtype=object), np.zeros(
                 len(raw), np.uint16

@@ -14,16 +14,16 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_cnc.heidenhain.sco_header import Curve, Header, read_header
-from thermodata_reader_cnc.number_rows import NumberRows, number_rows
+from thermodata_reader_cnc.number_rows import NumberRows, number_rows, without_end
 
 _FAR = 1 << 20  # rows that the first column may skip
-_END = (b"", b"%")  # a lone % may end the rows
+_END = b"%"  # alone, it may end the rows
 EXAMPLE = b"%[GLOBAL]\r\n%VERSION=1\r\n%\r\n%[CURVE1]\r\n%CHANNELTYPE=1\r\n%\r\n%[DATA]\r\n0;1;2\r\n"
 
 
@@ -62,7 +62,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     header, first = _header(path, source)
     losses, recording = Losses(path.name, max(1, path.stat().st_size)), _Rows(header)
     for chunk in from_line(chunks(path, first.encoding), header.first_row):
-        data, tail = _without_end(*split_last_line(chunk.data))
+        data, tail = without_end(chunk.data, _END)
         rows = number_rows(data, chunk.line, ";", header.decimal, ["float64"] * header.width)
         bad = tuple(each for each in rows.bad if each.text.strip() != "%")
         for each in bad:
@@ -80,12 +80,6 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """The line of a row."""
     return line_of(blocks(path, source), stream, row)
-
-
-def _without_end(data: bytes, tail: bytes) -> tuple[bytes, bytes]:
-    """Whole lines and what stands behind them, without the % that ends the rows."""
-    rows, last = split_last_line(data.rstrip(b"\r\n"))
-    return (rows if last.strip() == b"%" else data), (b"" if tail.strip() in _END else tail)
 
 
 class _Rows:

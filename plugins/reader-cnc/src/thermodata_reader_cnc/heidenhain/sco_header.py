@@ -58,6 +58,7 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
             where=where,
             expected="%[CURVE...] blocks, then %[DATA]",
             got=", ".join(name for name, _ in blocks) or "nothing",
+            hint="save the recording of the oscilloscope again, with its values",
         )
     data = [line.rstrip() for line in lines[first : first + 500] if line.strip() and not line.startswith("%")]
     width = Counter(line.count(";") + 1 for line in data).most_common(1)[0][0] if data else len(found)
@@ -70,6 +71,7 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
             where=f"{where} line {first + 1}",
             expected=f"{len(found)} columns, or one more for an index",
             got=str(cells),
+            hint="save the recording again: head and rows are of two recordings, or one was edited",
         )
     taken: dict[str, int] = {}
     curves = tuple(_curve(keys, k, index, taken, where) for k, keys in enumerate(found))
@@ -101,6 +103,7 @@ def _curve(keys: dict[str, str], k: int, index: int, taken: dict[str, int], wher
             where=f"{where} curve {k + 1}",
             expected="%CYCLETIME= in us",
             got=keys.get("CYCLETIME", "nothing"),
+            hint="save the recording again; if the cycle is known, write it into the head of the curve",
         )
     kind = " ".join(filter(None, (keys.get("CHANNELTYPE"), keys.get("AXISTYPE"))))
     name = keys.get("NAME") or kind or f"curve {k + 1}"
@@ -113,6 +116,7 @@ def _curve(keys: dict[str, str], k: int, index: int, taken: dict[str, int], wher
             where=f"{where} curve {k + 1}",
             expected="%COUNT= of values",
             got=keys["COUNT"][:40],
+            hint="save the recording again: its head is damaged",
         )
     return Curve(
         k + index,
@@ -140,7 +144,13 @@ def _number(text: str | None, where: str) -> float | None:
         return None
     value = of_either_mark(text)
     if value is None and not is_empty(text):
-        raise FormatError("a header value is no number", where=where, expected="a number", got=text[:40])
+        raise FormatError(
+            "a header value is no number",
+            where=where,
+            expected="a number",
+            got=text[:40],
+            hint="save the recording again: its head is damaged, or was edited",
+        )
     return value if value is not None and np.isfinite(value) else None
 
 

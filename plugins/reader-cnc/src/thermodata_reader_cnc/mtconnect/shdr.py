@@ -85,6 +85,7 @@ def describe(path: Path, source: Source) -> Recording:
             where=path.name,
             expected="lines of time|item|value",
             got=repr(look.head[0][:60]) if look.head else "nothing",
+            hint="'thermodata sniff FILE' says which reader takes it",
         )
     of_adapter = look.form in (events.ISO, OFFSET_MS) and not look.units
     notes = [look.note, NO_UNITS if of_adapter else None, time_series.NOTE if look.series else None]

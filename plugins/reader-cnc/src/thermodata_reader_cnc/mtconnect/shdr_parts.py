@@ -58,7 +58,13 @@ def time_form(stamps: Sequence[str], table: Mapping[str, Any] | None, where: str
     if unit is None:
         raise _question(times, where)
     if unit not in _UNITS:
-        raise UsageError(f"times in '{unit}'", where=where, expected=" or ".join(_UNITS), got=str(unit))
+        raise UsageError(
+            f"times in '{unit}'",
+            where=where,
+            expected=" or ".join(_UNITS),
+            got=str(unit),
+            hint="correct the option, or leave it out",
+        )
     return _UNITS[unit]
 
 

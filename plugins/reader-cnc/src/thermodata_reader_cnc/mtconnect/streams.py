@@ -145,7 +145,13 @@ def describe(path: Path, source: Source) -> Recording:
     """Items and the first time of a log, by its first documents."""
     look = _Look(path)
     if not look.plan.items and not look.series:
-        raise FormatError("no observations", where=path.name, expected="MTConnectStreams with observations", got="none")
+        raise FormatError(
+            "no observations",
+            where=path.name,
+            expected="MTConnectStreams with observations",
+            got="none",
+            hint="ask the agent for /sample or /current: a /probe says what there is, and no values",
+        )
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4096))
         behind = _END.split(file.read())

@@ -146,6 +146,7 @@ def _look(path: Path, source: Source) -> _Look:
             where=path.name,
             expected="columns of time, tag and value",
             got=first.head[0][:80] if first.head else "nothing",
+            hint="'thermodata sniff FILE' says which reader takes it",
         )
     if layout.status is not None:
         name = clean(fields(layout.header, layout.delimiter)[layout.status])
@@ -160,7 +161,13 @@ def _look(path: Path, source: Source) -> _Look:
         rest += _sampled(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name, units)
     plan = events.plan([*head, *rest], form=layout.form)
     if not plan.items:
-        raise FormatError("no rows", where=path.name, expected="rows of time, tag and value", got="none")
+        raise FormatError(
+            "no rows",
+            where=path.name,
+            expected="rows of time, tag and value",
+            got="none",
+            hint="ask the historian for a stretch in which the tags were logged",
+        )
     ordered = rest if sections.all else head
     changes = sum(a.key != b.key for a, b in pairwise(ordered))
     back = sum(a.key != b.key and b.time < a.time for a, b in pairwise(ordered))

@@ -87,7 +87,13 @@ def _named(header: Mapping[str, Any], where: str) -> tuple[list[str | None], int
     told = header.get("SignalListHFData")
     listed = [s for s in told if isinstance(s, dict)] if isinstance(told, list) else []
     if len(listed) > _MOST_SIGNALS:
-        raise FormatError("too many signals", where=where, expected=f"{_MOST_SIGNALS} at most", got=f"{len(listed)}")
+        raise FormatError(
+            "too many signals",
+            where=where,
+            expected=f"{_MOST_SIGNALS} at most",
+            got=f"{len(listed)}",
+            hint="record fewer at once",
+        )
     calls = [str(s.get("Name") or s.get("Address") or f"column {k + 1}")[:200] for k, s in enumerate(listed)]
     every = list[str]()
     for each, call in zip(listed, calls, strict=True):
@@ -99,7 +105,11 @@ def _named(header: Mapping[str, Any], where: str) -> tuple[list[str | None], int
     names = [None if k == counter else n for k, n in enumerate(every)] if _CYCLE in calls else [None, *every]
     if len(set(every)) < len(every):
         raise FormatError(
-            "signals of one name and address", where=where, expected="each once", got=", ".join(every[:9])
+            "signals of one name and address",
+            where=where,
+            expected="each once",
+            got=", ".join(every[:9]),
+            hint="record each once",
         )
     said = {
         n: {key: str(each[key])[:200] for key in ("Axis", "Address", "Type") if each.get(key)}

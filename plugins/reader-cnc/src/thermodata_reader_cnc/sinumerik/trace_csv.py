@@ -153,6 +153,7 @@ def _header(path: Path, source: Source) -> tuple[Header, str, bool]:
             where=path.name,
             expected="columns named /Nck/... or /Channel/...",
             got=first.head[0][:80] if first.head else "nothing",
+            hint="export the trace with its header; another table is read with reader: table",
         )
     said = (source.table or {}).get("time") or {}
     unit = said.get("unit") if isinstance(said, Mapping) else None

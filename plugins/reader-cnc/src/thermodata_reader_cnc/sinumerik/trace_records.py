@@ -68,6 +68,7 @@ class TraceParser:
             where=self.name,
             expected="a trace without them",
             got="<!DOCTYPE or <!ENTITY",
+            hint="save the trace from the control: these write none, and a file that does may be made to harm",
         )
 
     def _frame(self, header: dict[str, str]) -> Frame:
@@ -97,7 +98,11 @@ class TraceParser:
             key = f"f{key}" if _ID.match(key) else key
             if len(frame.signals) >= _MOST_SIGNALS:
                 raise FormatError(
-                    "too many signals in a frame", where=self.name, expected=f"up to {_MOST_SIGNALS}", got="more"
+                    "too many signals in a frame",
+                    where=self.name,
+                    expected=f"up to {_MOST_SIGNALS}",
+                    got="more",
+                    hint="record fewer at once",
                 )
             while key in frame.signals:
                 key += "'"  # announced twice: no record can be told to be its

@@ -65,10 +65,22 @@ def _look(path: Path) -> list[Frame]:
                 return [first]
             if wrong:
                 if first is None:
-                    raise FormatError("no XML", where=path.name, expected="a Sinumerik trace", got=wrong)
+                    raise FormatError(
+                        "no XML",
+                        where=path.name,
+                        expected="a Sinumerik trace",
+                        got=wrong,
+                        hint="save the trace again; 'thermodata sniff FILE' says what this file is",
+                    )
                 break
     if not by_kind:
-        raise FormatError("no signals", where=path.name, expected="<dataSignal> elements", got="none")
+        raise FormatError(
+            "no signals",
+            where=path.name,
+            expected="<dataSignal> elements",
+            got="none",
+            hint="save the trace again, with its signals chosen",
+        )
     return list(by_kind.values())
 
 

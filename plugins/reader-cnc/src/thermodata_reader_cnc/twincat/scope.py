@@ -15,13 +15,13 @@ import numpy as np
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.text.cells.number import to_float, to_int
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.times.time_units import EPOCHS, to_ns
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted, with_count
-from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows
+from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows, without_end
 from thermodata_reader_cnc.twincat.scope_header import Header, read_header
 
 _STARTS = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\b", re.IGNORECASE)
@@ -29,7 +29,7 @@ _TICKS = EPOCHS["filetime"]
 _FAR_NS = 3_000_000_000 * 10**9  # 95 years of a recording
 _SOME = 5
 _SAMPLED = 100  # rows of either end, by which a step is told
-_END = (b"", b"EOF")
+_END = b"EOF"
 EXAMPLE = (
     b"Name\tProject\r\nFile\tC:\\scope.svdx\r\nStartTime of export\t131000000000000000\r\n\r\nName\tx\r\n"
     b"SampleTime[ms]\t1\r\n0\t0.5\r\n1\t0.6\r\n"
@@ -135,7 +135,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             dtypes[channel.column] = channel.dtype
     losses, groups = Losses(path.name, max(1, path.stat().st_size)), _Groups(header)
     for chunk in from_line(chunks(path, first.encoding), header.first_row):
-        data, tail = _without_end(*split_last_line(chunk.data))
+        data, tail = without_end(chunk.data, _END)
         data = groups.padded(data, chunk.line, losses)
         rows = number_rows(data, chunk.line, header.delimiter, header.decimal, dtypes)
         longest: tuple[Int1D, Int1D] = np.empty(0, np.int64), np.empty(0, np.int64)
@@ -159,12 +159,6 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """The line of a row."""
     return line_of(blocks(path, source), stream, row)
-
-
-def _without_end(data: bytes, tail: bytes) -> tuple[bytes, bytes]:
-    """Whole lines and what stands behind them, without the row EOF."""
-    rows, last = split_last_line(data.rstrip(b"\r\n"))
-    return (rows if last.strip() == b"EOF" else data), (b"" if tail.strip() in _END else tail)
 
 
 class _Groups:

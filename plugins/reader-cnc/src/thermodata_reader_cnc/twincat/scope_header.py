@@ -87,7 +87,11 @@ def filetime_ns(ticks: int, where: str) -> int:
     ns = int(to_ns(np.array([ticks]), _TICKS.seconds, _TICKS.zero_s)[0])
     if not 0 <= ns <= _LATEST_NS:
         raise FormatError(
-            "no time in the header", where=where, expected="a FILETIME between 1970 and 2253", got=str(ticks)
+            "no time in the header",
+            where=where,
+            expected="a FILETIME between 1970 and 2253",
+            got=str(ticks),
+            hint="export the scope again as text with its header",
         )
     return ns
 
@@ -108,6 +112,7 @@ def read_header(lines: Sequence[str], where: str) -> Header:
             where=where,
             expected="rows of numbers",
             got=lines[first][:60] if first < len(lines) else "the end of the file",
+            hint="export the scope again, with a stretch that holds samples",
         )
     width, groups = _width(body, names, delimiter, where), _groups(names, rows)
     ticks = sum(len(line.split(delimiter, 1)[0].strip().lstrip("-")) >= 17 for line in body) > len(body) / 2
@@ -132,6 +137,7 @@ def _start(lines: Sequence[str], where: str) -> re.Match[str]:
             where=where,
             expected="'Starttime of export' and a FILETIME",
             got=lines[1][:60] if len(lines) > 1 else "nothing",
+            hint="export the scope again as text with its header",
         )
     return start
 
@@ -145,6 +151,7 @@ def _row_of_names(lines: Sequence[str], where: str) -> tuple[int, str]:
             where=where,
             expected="a second row 'Name' between tabs or ';'",
             got=lines[5][:60] if len(lines) > 5 else "nothing",
+            hint="export the scope again as text with its header",
         )
     return found
 
@@ -167,6 +174,7 @@ def _width(body: Sequence[str], names: Sequence[str], delimiter: str, where: str
             where=where,
             expected=f"about {width} cells, as the first {len(body)} rows have",
             got=f"{len(names)} cells",
+            hint="export the scope again: the rows were cut, or the file was edited",
         )
     return max(width, len(names))
 

@@ -206,7 +206,12 @@ def _clock(
             return counting(names.index(wanted.column))
         if isinstance(wanted.column, int) and 1 <= wanted.column <= len(names):
             return counting(wanted.column - 1)
-        raise FormatError(f"no column '{wanted.column}' for the time", where=where, expected=", ".join(names))
+        raise FormatError(
+            f"no column '{wanted.column}' for the time",
+            where=where,
+            expected=", ".join(names),
+            hint="take a name from this list",
+        )
     if wanted.period_s is not None:
         return "none", 0, 1.0
     for at in (0, values.shape[1] - 1):

@@ -29,7 +29,12 @@ def wanted_of(source: Source, where: str) -> Wanted:
     where an answer is open, or for several columns or a unit that counts from a date."""
     said = (source.table or {}).get("time") or {}
     if isinstance(said, list) or isinstance(said.get("column"), list):
-        raise FormatError("several columns for the time of LabVIEW's text", where=where, expected="one, in s, min or h")
+        raise FormatError(
+            "several columns for the time of LabVIEW's text",
+            where=where,
+            expected="one, in s, min or h",
+            hint="name the one by which the rows follow each other",
+        )
     column, unit, period = source.options.get("time", said.get("column")), said.get("unit"), said.get("period")
     if isinstance(period, int | float):
         period = f"{period} s"
@@ -37,7 +42,13 @@ def wanted_of(source: Source, where: str) -> Wanted:
     if period == UNKNOWN:
         raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
     if unit is not None and check_unit(str(unit), where) not in SECONDS:
-        raise FormatError("a unit that counts from a date", where=where, expected="s, min, h or ms", got=str(unit))
+        raise FormatError(
+            "a unit that counts from a date",
+            where=where,
+            expected="s, min, h or ms",
+            got=str(unit),
+            hint="the rows count from a start: give that as the test's 'start'",
+        )
     return Wanted(column, unit, None if period is None else value_in(period, "s"))
 
 

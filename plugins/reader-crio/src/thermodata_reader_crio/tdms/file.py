@@ -8,12 +8,12 @@ from threading import Lock
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata_reader_crio.tdms.channels import channels
-from thermodata_reader_crio.tdms.one_group import columns_of, without_its_name
-from thermodata_reader_crio.tdms.raw_columns import columns
-from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.segments import read_index
-from thermodata_reader_crio.tdms.streams import Stream, streams_of
+from thermodata_reader_crio.tdms.channels.channel import channels
+from thermodata_reader_crio.tdms.channels.one_group import columns_of, without_its_name
+from thermodata_reader_crio.tdms.raw.columns import columns
+from thermodata_reader_crio.tdms.segments.index import Index
+from thermodata_reader_crio.tdms.segments.read_index import read_index
+from thermodata_reader_crio.tdms.streams import Stream, StreamMaker
 
 _KEPT: dict[tuple[object, ...], File] = {}
 _LOCK = Lock()
@@ -58,15 +58,15 @@ def _opened(path: Path, source: Source, sheet: int | str | None) -> File:
     if sheet is not None:
         cols = columns_of(cols, sheet, path.name)
     made = channels(index, cols, path.name, set(source.options.get("unscaled", ())))
-    notes = [*index.notes, *made.notes]
     partly += made.left_out
-    taken: dict[str, int] = {}
     found: list[Stream] = []
     with path.open("rb") as file:
+        maker = StreamMaker(index, source, file)
         for group, members in made.of_group.items():
             if sheet is not None:
                 group, members = "", without_its_name(group, members)
-            found += streams_of(group, members, index, source, notes, taken, file)
+            found += maker.streams(group, members)
+    notes = [*index.notes, *made.notes, *maker.notes]
     if not found:
         raise FormatError(
             "a TDMS file without values",

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from thermodata.plugin import Loss
 from thermodata_reader_crio.tdms.file import File
-from thermodata_reader_crio.tdms.segment_index import Hole
+from thermodata_reader_crio.tdms.segments.index import Hole
 from thermodata_reader_crio.tdms.streams import Stream
 
 

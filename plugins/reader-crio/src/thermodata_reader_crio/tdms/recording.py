@@ -11,11 +11,11 @@ import numpy as np
 from thermodata.plugin import Array, Block, Loss, Recording, Source
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted, with_count
-from thermodata_reader_crio.tdms.channels import Channel
+from thermodata_reader_crio.tdms.channels.channel import Channel
 from thermodata_reader_crio.tdms.file import File, open_file
 from thermodata_reader_crio.tdms.losses import losses
-from thermodata_reader_crio.tdms.raw_columns import TEXT
-from thermodata_reader_crio.tdms.raw_values import read
+from thermodata_reader_crio.tdms.raw.columns import TEXT
+from thermodata_reader_crio.tdms.raw.values import read
 from thermodata_reader_crio.tdms.streams import Stream
 
 BLOCK_VALUES = 2_000_000  # values a block, over all its signals: 16 MB, a row group of the store

@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Source
 from thermodata_reader_crio.tdms.file import open_file
-from thermodata_reader_crio.tdms.raw_columns import TEXT, Column
-from thermodata_reader_crio.tdms.raw_values import read
+from thermodata_reader_crio.tdms.raw.columns import TEXT, Column
+from thermodata_reader_crio.tdms.raw.values import read
 from thermodata_reader_crio.tdms.streams import Stream
 
 _NAMED = 12  # channels whose bytes are told one by one

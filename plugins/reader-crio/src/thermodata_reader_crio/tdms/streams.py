@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, BinaryIO
 
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D, Int1D, Source
-from thermodata_reader_crio.tdms.channel_clock import counted_clock
-from thermodata_reader_crio.tdms.channels import Channel
-from thermodata_reader_crio.tdms.date_and_time import date_and_time
-from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.time_channel import TimeChannel, time_channel, time_channels
-from thermodata_reader_crio.tdms.waveform_clock import Clock, runs_over
-from thermodata_reader_crio.tdms.weeks_of_gps import weeks_of_gps
+from thermodata_reader_crio.tdms.channels.channel import Channel
+from thermodata_reader_crio.tdms.channels.channel_clock import counted_clock
+from thermodata_reader_crio.tdms.channels.waveform_clock import Clock, runs_over
+from thermodata_reader_crio.tdms.segments.index import Index
+from thermodata_reader_crio.tdms.times.date_and_time import date_and_time
+from thermodata_reader_crio.tdms.times.time_channel import TimeChannel, time_channel, time_channels
+from thermodata_reader_crio.tdms.times.weeks_of_gps import weeks_of_gps
 
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
@@ -58,44 +58,87 @@ class Stream:
         return self.clock.times(first, last), None
 
 
-def streams_of(
-    group: str,
-    members: list[Channel],
-    index: Index,
-    source: Source,
-    notes: list[str],
-    taken: dict[str, int],
-    file: BinaryIO,
-) -> Iterable[Stream]:
-    """The streams of one group of channels. notes: what is told of them comes here; taken: names of streams so far;
-    file: for the first values of channels that hold a time."""
-    filled = [c for c in members if c.planned or c.length]
-    notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    times = _Times(filled, index, source, file)
-    begins = min((_first_piece(c) for c in filled if c.length), default=0)
-    step_s = _seconds(source.options.get("increment"))
-    measured = [c for c in filled if not times.hold(c)]
-    if step_s is None:
-        measured = [c for c in measured if not _stands_over_another(c, times, notes)]
-    for part in _parts(measured, index):
-        name = _name(group, taken)
-        own = tuple([c.in_stream(name) for c in part])
-        holding = None if part[0].clock is not None else times.of_rows(part[0])
-        if holding is not None:
-            time = times.taken(holding)
-            notes.extend(n for n in time.notes if n not in notes)
-            yield Stream(name, own, None, time)
-            continue
-        clock = _clock(part, index, step_s, name, notes)
+class StreamMaker:
+    """Makes the streams of a file, group by group. notes: what is told of them.
+
+    source: as the file is declared; file: for the first values of channels that hold a time.
+    """
+
+    def __init__(self, index: Index, source: Source, file: BinaryIO) -> None:
+        self.notes: list[str] = []
+        self._index, self._source, self._file = index, source, file
+        self._step_s = _seconds(source.options.get("increment"))
+        self._taken: dict[str, int] = {}  # names of streams, and the number to try next
+
+    def streams(self, group: str, members: Sequence[Channel]) -> Iterator[Stream]:
+        """Those of one group of channels. UsageError: an `increment` that is no time."""
+        filled = [c for c in members if c.planned or c.length]
+        self.notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
+        times = _Times(filled, self._index, self._source, self._file)
+        begins = min((_first_piece(c) for c in filled if c.length), default=0)
+        for part in _parts([c for c in filled if self._is_measured(c, times)], self._index):
+            name = self._name(group)
+            holding = None if part[0].clock is not None else times.of_rows(part[0])
+            if holding is not None:
+                yield self._timed(name, part, times.taken(holding))
+            else:
+                yield self._clocked(name, part, begins)
+        for c in times.left():  # a time channel beside waveforms is a signal like any other
+            yield self._timed(self._name(group), [c], times.taken(c))
+
+    def _is_measured(self, channel: Channel, times: _Times) -> bool:
+        """Whether a channel holds no time, and stands over time: not over a frequency or a position, as its properties
+        may say where nothing else does."""
+        if times.hold(channel):
+            return False
+        if self._step_s is not None or channel.clock is not None:
+            return True
+        over = runs_over(channel.signal.properties)
+        if over is None or times.of_rows(channel) is not None:
+            return True
+        self.notes.append(f"{channel.signal.name}: stands over {over}, not over time; left out")
+        return False
+
+    def _name(self, group: str) -> str:
+        """A stream's name that no other has, in upper or lower case."""
+        base, taken = group or "data", self._taken
+        name, number = base, taken.get(base.casefold(), 2)
+        while name.casefold() in taken:
+            name, number = f"{base}@{number}", number + 1
+        taken[base.casefold()] = number
+        taken.setdefault(name.casefold(), 2)
+        return name
+
+    def _timed(self, name: str, part: Sequence[Channel], time: TimeChannel) -> Stream:
+        """A stream whose time a channel holds."""
+        self.notes.extend(n for n in time.notes if n not in self.notes)
+        return Stream(name, tuple([c.in_stream(name) for c in part]), None, time)
+
+    def _clocked(self, name: str, part: Sequence[Channel], begins: int) -> Stream:
+        """A stream whose time no channel holds. begins: the first piece of the file that holds rows of its group."""
+        clock = self._clock(name, part)
         if part[0].length and _first_piece(part[0]) > begins:
-            notes.append(f"stream '{name}' begins after others of its group; its time is what its own properties say")
-        yield Stream(name, own, clock, None)
-    for c in times.left():
-        # a time channel beside waveforms is a signal like any other
-        name = _name(group, taken)
-        time = times.taken(c)
-        notes.extend(n for n in time.notes if n not in notes)
-        yield Stream(name, (c.in_stream(name),), None, time)
+            self.notes.append(
+                f"stream '{name}' begins after others of its group; its time is what its own properties say"
+            )
+        return Stream(name, tuple([c.in_stream(name) for c in part]), clock, None)
+
+    def _clock(self, name: str, part: Sequence[Channel]) -> Clock:
+        """The channels' own clock, or one that counts rows."""
+        clock = part[0].clock
+        if clock is None:
+            if self._step_s is None:
+                self.notes.append(
+                    f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
+                    "options: {increment: 0.1 s}, or {time: CHANNEL}"
+                )
+            return counted_clock(self._index, part[0].columns[0], self._step_s or 1.0)
+        if any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock not in (None, clock)):
+            self.notes.append(
+                f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
+                "rows carry the time of the first; each channel's own start stands in its wf_start_time"
+            )
+        return clock
 
 
 class _Times:
@@ -130,48 +173,9 @@ class _Times:
         return [c for c in self._channels if id(c) not in self._taken]
 
 
-def _stands_over_another(channel: Channel, times: _Times, notes: list[str]) -> bool:
-    """Whether a channel without a time stands over something else, a frequency or a position, as its properties say."""
-    over = runs_over(channel.signal.properties) if channel.clock is None else None
-    if over is None or times.of_rows(channel) is not None:
-        return False
-    notes.append(f"{channel.signal.name}: stands over {over}, not over time; left out")
-    return True
-
-
-def _clock(part: list[Channel], index: Index, step_s: float | None, name: str, notes: list[str]) -> Clock:
-    """The clock of channels that no channel holds the time of: their own, or one that counts rows. step_s: from row to
-    row, where it is declared."""
-    clock = part[0].clock
-    if clock is None:
-        if step_s is None:
-            notes.append(
-                f"stream '{name}' has no time: its rows are counted as 1 s each; declare "
-                "options: {increment: 0.1 s}, or {time: CHANNEL}"
-            )
-        return counted_clock(index, part[0].columns[0], step_s or 1.0)
-    if any(not np.array_equal(c.clock.base_ns, clock.base_ns) for c in part if c.clock not in (None, clock)):
-        notes.append(
-            f"stream '{name}': its channels start up to 1 ms apart (one scan of a multiplexed converter); "
-            "rows carry the time of the first; each channel's own start stands in its wf_start_time"
-        )
-    return clock
-
-
 def _first_piece(channel: Channel) -> int:
     """The number of the file's first piece that holds rows of a channel."""
     return int(channel.columns[0].runs.piece[0])
-
-
-def _name(group: str, taken: dict[str, int]) -> str:
-    """A stream's name that no other has, in upper or lower case. taken: names, and the number to try next."""
-    base = group or "data"
-    name, number = base, taken.get(base.casefold(), 2)
-    while name.casefold() in taken:
-        name, number = f"{base}@{number}", number + 1
-    taken[base.casefold()] = number
-    taken.setdefault(name.casefold(), 2)
-    return name
 
 
 def _parts(members: list[Channel], index: Index) -> Iterable[list[Channel]]:

@@ -19,7 +19,13 @@ def opened(path: Path) -> Iterator[memoryview]:
     with path.open("rb") as file:
         start = file.read(len(MAGIC))
         if start != MAGIC:
-            raise FormatError("not an MCAP file", where=path.name, expected=repr(MAGIC), got=repr(start))
+            raise FormatError(
+                "not an MCAP file",
+                where=path.name,
+                expected=repr(MAGIC),
+                got=repr(start),
+                hint="'thermodata sniff FILE' says what it is; a bag of ROS 1 or 2 is converted by the mcap tool",
+            )
         mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
     view = memoryview(mapped)
     try:

@@ -57,10 +57,20 @@ def options(source: Source) -> Options:
     unit, enums = source.options.get("time_unit"), source.options.get("enums", "number")
     if unit is not None and unit not in SCALES:
         raise FormatError(
-            "time_unit is none", where=f"source '{source.name}'", expected=", ".join(SCALES), got=str(unit)
+            "time_unit is none",
+            where=f"source '{source.name}'",
+            expected=", ".join(SCALES),
+            got=str(unit),
+            hint="leave time_unit out where the size of the numbers tells it",
         )
     if enums not in ("number", "label"):
-        raise FormatError("enums is none", where=f"source '{source.name}'", expected="number, label", got=str(enums))
+        raise FormatError(
+            "enums is none",
+            where=f"source '{source.name}'",
+            expected="number, label",
+            got=str(enums),
+            hint="number keeps what was sent, label gives the words of the schema",
+        )
     time = source.options.get("time", LOG)
     if not isinstance(time, str) or not time.strip("."):
         raise FormatError(
@@ -68,6 +78,7 @@ def options(source: Source) -> Options:
             where=f"source '{source.name}'",
             expected="log_time, publish_time, or a field such as header.stamp",
             got=str(time),
+            hint="leave 'time' out, which means log_time",
         )
     series = Declaration.of(source.options.get("series"), "options: {{series: {}}}")
     publish = bool(source.options.get("publish_time", False))

@@ -101,10 +101,11 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     series, more = _senders(found, batches, stamped, chosen.series)
     notes += more
     times = {chosen.stamp} if chosen.stamp is not None else set[Path]()
-    bare = [t for t in found.topics if t not in series]
-    units, more = units_said(bare, found.topics, found.readers, batches, times)
-    notes += more
-    found.sent.leave([one.of for one in units])
+    bare = {name: topic for name, topic in found.topics.items() if name not in series}
+    said_by_rows = units_said(bare, found.readers, batches, times)
+    found.topics |= said_by_rows.topics
+    notes += said_by_rows.notes
+    found.sent.leave([one.of for one in said_by_rows.columns])
     notes += filter(None, (found.sent.note(topic, found.decoders(name)) for name, topic in found.topics.items()))
     return Plan(
         options=chosen,
@@ -115,7 +116,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         stamped=stamped,
         series=series,
         naming={c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
-        units=units,
+        units=said_by_rows.columns,
         sent=found.sent,
         samples=samples,
         start_ns=clock.start_ns,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from thermodata.reader.signals.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.signals.interleaved import bare_header
@@ -25,34 +25,45 @@ _PAIRED = re.compile(r"(?P<of>.+?)(?:_units?|Units?)")  # 'dZ_unit' of 'dZ'
 _NO_READING = ("seq", "sec", "nsec", "nanosec", "id", "counter", "index", "quality", "status", "state")
 
 
+@dataclass(frozen=True, slots=True)
+class UnitsSaid:
+    """topics: with the units that their messages say; columns: which fields say the units of others, message by
+    message; notes: on units that can't be told."""
+
+    topics: Mapping[str, Topic]
+    columns: tuple[UnitColumn, ...]
+    notes: tuple[str, ...]
+
+
 def units_said(
-    names: Collection[str],
-    topics: dict[str, Topic],
+    topics: Mapping[str, Topic],
     readers: Mapping[Channel, Decoder],
     batches: Mapping[Channel, Batch],
     kept: Collection[Path],
-) -> tuple[tuple[UnitColumn, ...], list[str]]:
-    """(which fields of some topics say the units of others, message by message; notes); the topics get these. kept:
-    paths of times, which are no readings."""
-    told: tuple[UnitColumn, ...] = ()
+) -> UnitsSaid:
+    """Of some topics. kept: paths of times, which are no readings."""
+    made: dict[str, Topic] = {}
+    columns: list[UnitColumn] = []
     notes: list[str] = []
-    for name in names:
-        made = {c: one for c, one in readers.items() if c.topic == name and c in batches}
-        topics[name], more, said = _with_units(topics[name], batches, made, kept)
-        told += more
-        notes += said
-    return told, notes
+    for name, topic in topics.items():
+        own = {c: one for c, one in readers.items() if c.topic == name and c in batches}
+        told, more = _told(topic, batches, own, kept)
+        made[name] = replace(topic, leaves=_with(topic.leaves, told))
+        columns += told.values()
+        notes += more
+    return UnitsSaid(made, tuple(columns), tuple(notes))
 
 
-def _with_units(
+def _told(
     topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], kept: Collection[Path]
-) -> tuple[Topic, tuple[UnitColumn, ...], list[str]]:
-    """Of one topic. Several units that don't convert into each other, or may be of several fields, are a note."""
+) -> tuple[dict[str, UnitColumn], list[str]]:
+    """Of one topic: (field -> which says its unit, notes). Several units that don't convert into each other, or may be
+    of several fields, are a note."""
     words = [leaf for leaf in topic.leaves if leaf.dtype == "str" and _says_unit(leaf)]
-    if not words:
-        return topic, (), []
     told: dict[str, UnitColumn] = {}
     notes: list[str] = []
+    if not words:
+        return told, notes
     for leaf, seen in zip(words, looked_at(words, batches, made, _LOOKED_AT)[2], strict=True):
         numbers = _numbers_beside(leaf, words, topic.leaves, kept)
         alias = f"{topic.name}.unit"  # a pair is called after its number
@@ -64,7 +75,7 @@ def _with_units(
         more = told[found.of].note() if found else unit_column_note(kinds, said)
         if more:
             notes.append(more.replace(f"'{alias}'", f"'{leaf.name}'"))
-    return replace(topic, leaves=_with(topic.leaves, told)), tuple(told.values()), notes
+    return told, notes
 
 
 def _says_unit(leaf: Leaf) -> bool:

@@ -34,6 +34,7 @@ def sort_matrices(plan: Plan, scope: Scope) -> None:
                 where=f"{plan.where} {path}",
                 got=str(count),
                 expected=f"at most {MOST_SIGNALS}",
+                hint="transpose it where its rows are the samples",
             )
         heads = fitting(scope, "names", count, path)
         if plan.cut and heads is None:
@@ -71,6 +72,7 @@ def _time_column(
                 where=f"{plan.where} {path}",
                 expected=f"1 to {count}",
                 got=str(plan.wanted),
+                hint="columns count from 1",
             )
         return plan.wanted - 1
     if heads and isinstance(plan.wanted, str):

@@ -31,6 +31,7 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
             where=where,
             got=str(wanted),
             expected="table: {time: {column: NAME}}",
+            hint="name one; streams of other times are told by themselves",
         )
     plan = Plan(where, wanted, tree.complete is False, notes=list(tree.notes), losses=list(tree.losses))
     variables = dict(tree.variables)
@@ -47,10 +48,19 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
             )
         variables = {sheet: variables[sheet]}
     if not variables and not plan.losses:
-        raise FormatError("a MAT file without variables", where=where)
+        raise FormatError(
+            "a MAT file without variables",
+            where=where,
+            hint="save it again: save('test.mat', 't', 'dZ')",
+        )
     _scope(plan, variables, "", None)
     if sum(len(s.columns) for s in plan.streams) > MOST_SIGNALS:
-        raise FormatError("more signals than any lab has", where=where, expected=f"at most {MOST_SIGNALS}")
+        raise FormatError(
+            "more signals than any lab has",
+            where=where,
+            expected=f"at most {MOST_SIGNALS}",
+            hint="save the measured variables alone",
+        )
     if not any(s.columns for s in plan.streams):
         raise _nothing(plan, variables)
     plan.streams = [s for s in plan.streams if s.columns]

@@ -80,7 +80,11 @@ def _blocks(stream: TimedStream, source: Source, where: str) -> Iterator[Block |
             part: Any = column.load(start, start + rows)
             if part.size != t_ns.size:
                 raise FormatError(
-                    f"'{name}' ends before its time", where=where, expected=f"{t_ns.size} values", got=str(part.size)
+                    f"'{name}' ends before its time",
+                    where=where,
+                    expected=f"{t_ns.size} values",
+                    got=str(part.size),
+                    hint="save it with as many values as its time has",
                 )
             values[name] = part if whole else part[good]
         missing += int((~good).sum())

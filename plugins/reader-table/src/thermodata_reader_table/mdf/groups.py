@@ -77,6 +77,7 @@ class File:
                 where=self.where,
                 got=str(wanted),
                 expected=", ".join(f"{g.index + 1}: {g.stream}" for g in self.groups[:30]),
+                hint="correct table: {sheet: ...}, or leave it out: every group is read",
             )
         self.groups = kept
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -26,13 +26,22 @@ def damage_as_format_error(where: str) -> Iterator[None]:
         raise damaged("a damaged MDF file", where=where, got=f"{type(error).__name__}: {error}"[:200]) from None
 
 
+def _end(file: Any) -> None:
+    """The end of asammdf's object, as it is but for stderr: it closes, and misses what its constructor had not made
+    where that gave up."""
+    with suppress(Exception):
+        file.close()
+
+
 @contextmanager
 def opened(path: Path) -> Iterator[Any]:
     """asammdf's file. FormatError: damaged; or the library is not installed."""
     try:
         import asammdf
+        from asammdf.blocks.mdf_v4 import MDF4
     except ImportError:
         raise FormatError("MDF needs asammdf, which is not installed", where=path.name, hint=INSTALL) from None
+    MDF4.__del__ = _end
     logging.getLogger("asammdf").setLevel(logging.CRITICAL)  # what it would say comes as losses and notes
     mdf = None
     try:

@@ -34,6 +34,7 @@ def describe(path: Path, source: Source) -> Recording:
                 "no channel group with rows and a time",
                 where=path.name,
                 got="; ".join([*file.notes, *(x.reason for x in file.losses)][:4]) or "an empty file",
+                hint="export the recording again with its time channels",
             )
         signals = tuple(c.signal for g in file.groups for c in g.channels)
         notes = [cut] if cut else []

@@ -54,7 +54,12 @@ def _block(file: File, group: Group, piece: Any) -> tuple[Block, int]:
         name = channel.signal.name
         found, invalid = file.get(group.index, channel.index, piece, raw=channel.raw)
         if found.shape != t_ns.shape:
-            raise FormatError("a channel as long as its time", where=file.where, got=f"'{name}': {found.shape}")
+            raise FormatError(
+                "a channel as long as its time",
+                where=file.where,
+                got=f"'{name}': {found.shape}",
+                hint="export the recording again from the program that wrote it",
+            )
         if channel.text is not None:
             column: Array = _words(found, channel.text)
         else:

@@ -56,5 +56,10 @@ def _local(local_ns: int, hours: int | None, source: Source, where: str) -> Star
 
 def _sane(utc_ns: int, where: str) -> int:
     if not 0 < utc_ns < 7_000_000_000_000_000_000:
-        raise FormatError("the file starts at an impossible time", where=where, got=f"{utc_ns} ns since 1970")
+        raise FormatError(
+            "the file starts at an impossible time",
+            where=where,
+            got=f"{utc_ns} ns since 1970",
+            hint="export the recording again: its header is damaged",
+        )
     return utc_ns

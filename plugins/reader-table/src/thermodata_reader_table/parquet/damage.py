@@ -18,5 +18,8 @@ def damage_as_format_error(path: Path) -> Iterator[None]:
         yield
     except (pa.ArrowException, OSError, ValueError, OverflowError, MemoryError, KeyError, IndexError) as error:
         raise FormatError(
-            "not a readable Parquet file", where=path.name, got=(str(error).splitlines() or ["?"])[0]
+            "not a readable Parquet file",
+            where=path.name,
+            got=(str(error).splitlines() or ["?"])[0],
+            hint="write or copy it again: a Parquet file whose end is missing can't be read",
         ) from None

@@ -69,7 +69,11 @@ class Table:
         self.units, others = units_of(self.names, self.said)
         self.notes += others
         if not self.names:
-            raise FormatError("no column of numbers, text or times", where=path.name)
+            raise FormatError(
+                "no column of numbers, text or times",
+                where=path.name,
+                hint="write lists and structures as columns of their own",
+            )
         period = one_time(source.table, path.name).get("period")
         self.period = None if period is None else period_s(period, path.name)
         self.time: int | None = None

@@ -143,7 +143,11 @@ def _unit(columns: Columns, found: FoundTime, kind: Any) -> str:
     name, where = columns.names[found.column], columns.where
     if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
         raise FormatError(
-            f"'{name}' is no time", where=where, got=str(kind), expected="timestamps, dates, text or numbers"
+            f"'{name}' is no time",
+            where=where,
+            got=str(kind),
+            expected="timestamps, dates, text or numbers",
+            hint="name another column: table: {time: {column: NAME}}",
         )
     if pt.is_duration(kind):
         return "duration"

@@ -1,0 +1,1 @@
+"""Raw numbers and texts of a channel, by the chunks that hold them."""

@@ -1,0 +1,1 @@
+"""Channels that hold the times of others."""
