@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.left_out_error import Errors, LeftOut
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions import second_lag
 from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
@@ -226,3 +229,21 @@ def test_what_is_hopeless_stays_so(squares: dict[str, float], samples: int, hope
     now = errors({"a": 3.0, "b": 1.0, "c": 1.0, "d": 1.0, "e": 1.0}, 100)
     assert errors({"a": 3.0, "b": 1.0, "c": 1.0, "d": 1.0, "e": 1.0}, 100).at_least(now) == pytest.approx(1.0)
     assert second_lag._is_hopeless(errors(squares, samples), now) is hopeless
+
+
+def test_each_fit_of_a_fold_runs_on_one_core(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Threads of the linear algebra library wait for each other in matrices that are so small."""
+    from thermodata.modelling.fit import model
+
+    seen: list[int] = []
+    own = model._fit_model
+
+    def looked(*args: Any, **how: Any) -> FittedModel:
+        seen.append(max(one["num_threads"] for one in threadpool_info()))
+        return own(*args, **how)
+
+    monkeypatch.setattr(model, "_fit_model", looked)
+    with threadpool_limits(2):
+        LeftOut(both, machine(single)).errors(both)
+    assert len(seen) == 5
+    assert set(seen) == {1}
