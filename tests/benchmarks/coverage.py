@@ -30,8 +30,8 @@ from time import process_time
 import numpy as np
 
 from thermodata.modelling.compare.ahead import ahead
+from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.predictions.predict import predict
-from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.schema.files.model import Model
@@ -183,7 +183,7 @@ def intervals(case: str, noise: str, seed: int, tests: int | None = None, hours:
     spec = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": "60 s"}
     model = Model.model_validate(spec | {"response": {"axis": "Z"}, "effects": CASES[case]})
     began = process_time()
-    found = fit_alone(model, data).parameters()
+    found = fit_model(model, data).parameters()
     seconds = process_time() - began
     for name, true in machine.truth.items():
         p = found[name]
@@ -221,7 +221,7 @@ def foretold(case: str, noise: str, seed: int, tests: int | None = None, hours: 
     effects = CASES[case.removesuffix(LACKING)]
     spec = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": "60 s"}
     kept = effects[:1] if case.endswith(LACKING) else effects
-    model = fit_alone(Model.model_validate(spec | {"response": {"axis": "Z"}, "effects": kept}), data)
+    model = fit_model(Model.model_validate(spec | {"response": {"axis": "Z"}, "effects": kept}), data)
     band = ahead(model, data)
     p = next(band.of(p) for p in predict(model, data)[0] if p.test == last.test)
     if p.half is None:

@@ -26,8 +26,8 @@ import numpy as np
 import peers
 
 from thermodata.effect.lag import lag
+from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.predictions.score import fit_percent
-from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
@@ -115,7 +115,7 @@ def ours(method: str, orders: tuple[int, int] | None, **more: int) -> Callable[[
         spec = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": f"{train.step_s:g} s"}
         spec |= {"response": {"channel": "dZ"}, "calibrate_on": ["train"], "verify_on": ["unseen"], "effects": [effect]}
         data = Dataset(train.step_s, tests, INFOS)
-        return fit_alone(Model.model_validate(spec), data, uncertainty=False).responses[0].predict(tests[1])
+        return fit_model(Model.model_validate(spec), data, uncertainty=False).responses[0].predict(tests[1])
 
     return run
 

@@ -22,7 +22,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from thermodata.effect.lag import lag
-from thermodata.modelling.run import fit_alone
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
@@ -131,7 +131,7 @@ def measured(
     seconds = []
     for _ in range(runs):
         began = time.process_time()
-        found = fit_alone(model, data).parameters()
+        found = fit_model(model, data).parameters()
         seconds.append(time.process_time() - began)
     wrong = [abs(found[name].value / true - 1) for name, true in (truth or {}).items()]
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024

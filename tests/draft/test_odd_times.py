@@ -6,7 +6,9 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import scipy.io
 
 from thermodata.draft.make import draft_files
 from thermodata.plugin import Source
@@ -113,3 +115,20 @@ def test_a_time_that_the_interval_above_it_contradicts_is_asked(tmp_path: Path) 
     assert "every 10 s by 'Sample interval: 10 s' above them: which one is it?" in (
         tmp_path / "campaign.yaml"
     ).read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("said", "asked"),
+    [
+        ("2026-05-11 06:00:00 UTC", "start: head or none? a text beside the signals says 'start_time: 2026-05-11"),
+        ("03/04/2026 06:00:00", "start: dmy or mdy? a text beside the signals says 'start_time: 03/04/2026"),
+        ("at once", None),
+    ],
+)
+def test_the_start_beside_the_signals_of_a_mat_file_is_asked(tmp_path: Path, said: str, asked: str | None) -> None:
+    k = np.arange(60.0)
+    columns = {"time_s": 10 * k, "dZ_um": k / 100, "T_bed": 21 + k / 100, "start_time": said}
+    scipy.io.savemat(tmp_path / "day.mat", columns)
+    (source,) = draft_files(tmp_path).draft.sources
+    assert [q.startswith(asked) for q in source.questions if asked and "start:" in q] == [True] * bool(asked)
+    assert bool(source.questions) == bool(asked)

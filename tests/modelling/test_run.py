@@ -346,7 +346,7 @@ def test_what_is_made_while_an_ingest_changes_the_data_is_of_the_data_as_they_ar
     store = stored(world, tmp_path)
     wished = spec("spindle_bearing", "ambient_frame", name="beside")
     parent = run.fit(store, wished).model
-    alone, begun = run.fit_alone, list[bool]()
+    alone, begun = run.fit_model, list[bool]()
 
     def beside(*args: Any, **more: Any) -> FittedModel:
         found = alone(*args, **more)
@@ -357,7 +357,7 @@ def test_what_is_made_while_an_ingest_changes_the_data_is_of_the_data_as_they_ar
             ingest(Store(store.path), path)
         return found
 
-    monkeypatch.setattr(run, "fit_alone", beside)
+    monkeypatch.setattr(run, "fit_model", beside)
     made = {
         "fit": lambda: run.fit(store, wished),
         "add": lambda: add(store, parent, "coolant:coolant_on", plain=True),
@@ -376,14 +376,14 @@ def test_data_that_never_stand_still_are_said_and_nothing_of_them_is_kept(
     stored: Stored, world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = stored(world, tmp_path)
-    alone = run.fit_alone
+    alone = run.fit_model
 
     def beside(*args: Any, **more: Any) -> FittedModel:
         with store.write(views=False) as con:
             con.execute("update campaign set data_version = data_version || '-'")
         return alone(*args, **more)
 
-    monkeypatch.setattr(run, "fit_alone", beside)
+    monkeypatch.setattr(run, "fit_model", beside)
     with pytest.raises(StoreError, match="the data of c changed meanwhile"):
         run.fit(store, spec("spindle_bearing", name="never"))
     with store.reader() as con:

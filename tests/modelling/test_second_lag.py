@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.left_out_error import Errors, LeftOut
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions import second_lag
 from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
@@ -185,3 +188,62 @@ def test_a_second_lag_starts_anew(world: Dataset, spec: Spec) -> None:
     assert [lag.id for lag in refined.lags] == ["lag_lag2"]
     assert refined.spec.effects[-1].start == {}
     fit_model(refined.spec, world, uncertainty=False)
+
+
+def test_a_lag_that_can_no_longer_be_worth_it_is_not_fitted_to_the_end(
+    both: Model, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The answer is the same, and the folds in which most is left come first."""
+    fits: list[int] = []
+    own = LeftOut._of_fold
+    monkeypatch.setattr(LeftOut, "_of_fold", lambda self, spec, fold: fits.append(1) or own(self, spec, fold))
+    for course in (single, distributed):
+        data, found = machine(course), []
+        for hopeless in (second_lag._is_hopeless, lambda so_far, now: False):
+            fits.clear()
+            with monkeypatch.context() as patched:
+                patched.setattr(second_lag, "_is_hopeless", hopeless)
+                found.append((with_second_lags(both, data), len(fits)))
+        (quick, few), (whole, many) = found
+        assert quick == whole
+        assert few < many if course is single else few <= many
+
+
+@pytest.mark.parametrize(
+    ("squares", "samples", "hopeless"),
+    [
+        ({"a": 1.13}, 100, False),  # 0.64 of 7 times 100, less what others may leave
+        ({"a": 4.47}, 100, False),
+        ({"a": 4.49}, 100, True),
+        ({"a": 4.49}, 99, False),  # other samples: nothing is known of them
+        ({"b": 1.01, "c": 1.01}, 100, False),
+        ({"b": 1.01, "c": 1.01, "d": 1.01}, 100, True),  # of five tests three get better at least
+        ({"b": 0.99, "c": 0.99, "d": 0.99}, 100, False),
+    ],
+)
+def test_what_is_hopeless_stays_so(squares: dict[str, float], samples: int, hopeless: bool) -> None:
+    def errors(of: dict[str, float], n: int) -> Errors:
+        places = {t: ("dZ", ("c", t)) for t in of}
+        return Errors(dict.fromkeys(places.values(), n), {places[t]: x for t, x in of.items()})
+
+    now = errors({"a": 3.0, "b": 1.0, "c": 1.0, "d": 1.0, "e": 1.0}, 100)
+    assert errors({"a": 3.0, "b": 1.0, "c": 1.0, "d": 1.0, "e": 1.0}, 100).at_least(now) == pytest.approx(1.0)
+    assert second_lag._is_hopeless(errors(squares, samples), now) is hopeless
+
+
+def test_each_fit_of_a_fold_runs_on_one_core(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Threads of the linear algebra library wait for each other in matrices that are so small."""
+    from thermodata.modelling.fit import model
+
+    seen: list[int] = []
+    own = model._fit_model
+
+    def looked(*args: Any, **how: Any) -> FittedModel:
+        seen.append(max(one["num_threads"] for one in threadpool_info()))
+        return own(*args, **how)
+
+    monkeypatch.setattr(model, "_fit_model", looked)
+    with threadpool_limits(2):
+        LeftOut(both, machine(single)).errors(both)
+    assert len(seen) == 5
+    assert set(seen) == {1}

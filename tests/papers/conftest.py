@@ -31,7 +31,7 @@ def _asked(spec: Model, data: Dataset, uncertainty: bool) -> bytes:
 def fits_once() -> Iterator[None]:
     """A model that is fitted to the same data again is the one that was found. That the search finds it again is held
     in tests/modelling."""
-    search, found = run.fit_alone, dict[bytes, FittedModel]()
+    search, found = run.fit_model, dict[bytes, FittedModel]()
 
     def once(spec: Model, data: Dataset, *, uncertainty: bool = True) -> FittedModel:
         asked = _asked(spec, data, uncertainty)
@@ -40,5 +40,5 @@ def fits_once() -> Iterator[None]:
         return found[asked]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(run, "fit_alone", once)
+        patch.setattr(run, "fit_model", once)
         yield

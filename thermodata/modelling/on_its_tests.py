@@ -7,7 +7,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from thermodata.modelling.run import Loaded, fit_alone
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.run import Loaded
 from thermodata.schema.answers.result import FitResult, Parameter
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def on_its_tests(store: Store, model: Loaded) -> Loaded:
         if t.key in then or t.role not in ("calibration", "verification") or {t.test, "/".join(t.key)} & named
     )
     data = replace(model.data, tests=tests)
-    fitted = fit_alone(spec, data)
+    fitted = fit_model(spec, data)
     if not _comes_out_again(stored.result, fitted.parameters()):
         return model
     return replace(model, fitted=fitted, data=data, kept=False)

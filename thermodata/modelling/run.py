@@ -64,18 +64,9 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     if kept:
         fitted = as_kept(stored.spec, stored.result, data, changed=stored.stale)
     else:
-        fitted = fit_alone(as_chosen(stored, data), data, uncertainty=uncertainty)
+        fitted = fit_model(as_chosen(stored, data), data, uncertainty=uncertainty)
     fitted_to = stored.data_version if kept else data.data_version
     return Loaded(stored.model, stored.parent, fitted, data, kept, fitted_to)
-
-
-def fit_alone(spec: Model, data: Dataset, *, uncertainty: bool = True) -> FittedModel:
-    """`fit_model` on one core: its matrices are so small that threads wait for each other, four times as long as they
-    work."""
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1):
-        return fit_model(spec, data, uncertainty=uncertainty)
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
@@ -104,7 +95,7 @@ def fit_once(
     data = load_data(store, spec)
     check = partial(refuse_changed, campaigns=spec.campaign_ids, made_from=(read or data).data_version)
     with advised_by_names_now(store, spec.campaign_ids):
-        fitted = fit_alone(spec, data)
+        fitted = fit_model(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     terms = [term.bound for response in fitted.responses for term in response.terms]
     names = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
@@ -253,7 +244,7 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
     effects = [_with_open_orders(e, method) for e in spec.effects]
     spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
     with advised_by_names_now(store, spec.campaign_ids):
-        fitted = fit_alone(spec, load_data(store, spec), uncertainty=False)
+        fitted = fit_model(spec, load_data(store, spec), uncertainty=False)
     found = [row for response in fitted.responses for row in response.tried]
     if not found:
         raise UsageError(

@@ -236,18 +236,28 @@ def test_zeros_in_text_are_the_blanks_that_matlab_shows(tmp_path: Path, version:
 
 
 @pytest.mark.parametrize(
-    ("name", "said", "wants"),
+    ("name", "said", "begun"),
     [
-        ("start", "2026-05-06 08:10:00", "start: 2026-05-06 08:10:00"),
-        ("start_time", "06.05.2026 08:10", "start: 2026-05-06 08:10:00"),
-        ("start", "2026-05-06T08:10:00Z", "start: (local to the timezone of its source)"),
-        ("created", "2026-05-06 08:10:00", ""),
-        ("start", "slowly", ""),
+        ("start", "2026-05-06 08:10:00", "2026-05-06T06:10:00"),
+        ("start_time", "06.05.2026 08:10", "2026-05-06T06:10:00"),
+        ("start_time", "2026-05-06 08:10:00 UTC", "2026-05-06T08:10:00"),
+        ("start", "2026-05-06T08:10:00Z", "2026-05-06T08:10:00"),
+        ("created", "2026-05-06 08:10:00", None),
+        ("start", "slowly", None),
     ],
 )
-def test_a_start_that_stands_beside_the_signals_is_told(tmp_path: Path, name: str, said: str, wants: str) -> None:
+def test_a_start_that_stands_beside_the_signals_is_told_and_taken_where_declared(
+    tmp_path: Path, name: str, said: str, begun: str | None
+) -> None:
     rising = {"t": col(np.arange(50.0)), "dX_um": col(np.arange(50.0)), name: said}
-    told = [n for n in read(tmp_path, rising).recording.notes if n.startswith("a text beside the signals says when")]
-    assert [n.endswith(f"if it is right, the test wants {wants}") for n in told] == [True] * bool(wants)
-    dated = {**rising, "t": col(1.7e9 + np.arange(50.0))}
-    assert not [n for n in read(tmp_path, dated).recording.notes if "beside the signals" in n]
+    found = read(tmp_path, rising)
+    told = [n for n in found.recording.notes if n.startswith("a text beside the signals says")]
+    assert ["declare table: {time: {start: head}}" in n and said in n for n in told] == [True] * bool(begun)
+    assert found.recording.clock == "relative"
+    assert not [n for n in read(tmp_path, rising, time={"start": "none"}).recording.notes if "beside the signals" in n]
+    if begun is not None:
+        dated = read(tmp_path, rising, time={"start": "head", "unit": "s"})
+        assert (dated.recording.clock, dated.recording.start_ns) == ("absolute", utc(begun))
+        assert only(dated)[:2].tolist() == [utc(begun), utc(begun) + 10**9]
+    dates = {**rising, "t": col(1.7e9 + np.arange(50.0))}
+    assert not [n for n in read(tmp_path, dates).recording.notes if "beside the signals" in n]

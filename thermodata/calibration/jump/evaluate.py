@@ -157,10 +157,7 @@ def _clean(
                 got=str(x.shape),
             )
     v = volts.astype(np.float64, copy=False)
-    keep = _is_reading(v)
-    if keep.any():
-        newest = np.maximum.accumulate(np.where(keep, t_ns, t_ns.min()))
-        keep[1:] &= t_ns[1:] > newest[:-1]
+    keep = readings(t_ns, v)
     if keep.sum() < _LEAST_SAMPLES:
         raise CalibrationError(
             f"jump test '{name}': hardly any data",
@@ -171,6 +168,16 @@ def _clean(
         )
     t = t_ns[keep]
     return ((t - t[0]) / 1e9, v[keep], {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
+
+
+def readings(t_ns: Int1D, volts: Float1D) -> Bool1D:
+    """Which samples count, shape (n,): those that a probe can have, each later than all before. The times of plateaus
+    count from the first of them. t_ns: shape (n,); volts: shape (n,), the probe's scaled signal."""
+    keep = _is_reading(volts)
+    if keep.any():
+        newest = np.maximum.accumulate(np.where(keep, t_ns, t_ns.min()))
+        keep[1:] &= t_ns[1:] > newest[:-1]
+    return keep
 
 
 def _is_reading(x: Float1D) -> Bool1D:

@@ -211,10 +211,15 @@ def plateaus(t_s: Float1D, volts: Float1D, match: Match, steps: list[Step], dwel
     return [_plateau(t_s, volts, a, b) for a, b in zip(starts, ends, strict=True)]
 
 
-def _plateau(t_s: Float1D, volts: Float1D, start: float, end: float) -> Plateau:
+def at_rest(t_s: Float1D, start: float, end: float) -> Bool1D:
+    """Which samples of a plateau from start to end [s] its mean is taken of, but for spikes. t_s: shape (n,)."""
     # the ramp's ends are known to a cell; a sixth at either side also lets the axis come to rest
     margin = (end - start) / 6
-    inside = (t_s >= start + margin) & (t_s <= end - margin)
+    return (t_s >= start + margin) & (t_s <= end - margin)
+
+
+def _plateau(t_s: Float1D, volts: Float1D, start: float, end: float) -> Plateau:
+    inside = at_rest(t_s, start, end)
     t, v = t_s[inside], volts[inside]
     if len(t) < 3:
         return Plateau((start + end) / 2, start, end, float("nan"), 0.0, 0.0, len(t))

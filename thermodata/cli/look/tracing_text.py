@@ -108,6 +108,17 @@ def _sum(found: Found) -> list[tuple[str, Any]]:
     return [("sum", f"{gain!r} * {raw!r} {offset:+.17g} = {value!r} {found['unit']}")]
 
 
+def _plateaus(found: Found) -> list[tuple[str, Any]]:
+    """The rows of the jump tests that made gain and offset, of the channel or of those that it is derived from."""
+    lines: list[tuple[str, Any]] = []
+    for step in found["calibrations"]:
+        for i, at in enumerate(step["rows"] or ()):
+            rows = f"rows {at['first_row'] + 1} to {at['last_row'] + 1} of {at['source_path']}, stream {at['stream']}"
+            mean = f"{at['mean']:.6g} {at['unit']} (mean of {at['used']}) at {at['commanded_um']:g} um"
+            lines.append(("" if i else step["calibration"], f"{rows}: {mean}"))
+    return lines + [line for operand in found.get("operands", ()) for line in _plateaus(operand)]
+
+
 def _sample(found: Found) -> str:
     sample, unit = found["sample"], found["unit"]
     lines: list[tuple[str, Any]] = [
@@ -129,7 +140,7 @@ def _sample(found: Found) -> str:
         lines += [(name, where + f"{raw['raw_value']!r}"), ("  SHA-256", raw["sha256"])]
         if raw.get("again"):
             lines.append(("  read again", _again(raw["again"], raw["raw_value"])))
-    lines += _sum(found)
+    lines += _sum(found) + _plateaus(found)
     return "sample (rows count from 1)\n" + fields(lines)
 
 

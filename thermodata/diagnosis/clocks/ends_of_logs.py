@@ -10,12 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 
 if TYPE_CHECKING:
+    from duckdb import DuckDBPyConnection
+
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
     from thermodata.store.ingest.told.beside_each_other import OddClock
@@ -123,7 +125,6 @@ def _told(campaign: str, test: str, why: str) -> Artefact:
 
 
 UNKNOWN = Ends()
-_ASKED = ("source", "start_ns", "step_s", "rows", "clock", "offset_ns")
 _BY_HEAT = "what the commands of one log warm, by the other one, comes at the right time so"
 _BY_NO_HEAT = (
     "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms "
@@ -192,13 +193,26 @@ def _as_told(one: OddClock, campaign: str, test: str, word: Collection[tuple[str
     return OddEnds(campaign, test, *both, one.shift_s, str(one), one.seen, in_place, stays)
 
 
-def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:
-    """Test -> its rows of the table `source`."""
-    found: dict[str, list[dict[str, object]]] = {}
+def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, Any]]]:
+    """Test -> its rows of the table `source`, each with its pauses and how long its files last, as ingest has them."""
+    from thermodata.store.ingest.told.ends import with_lengths, with_pauses
+
     with store.reader() as con:
-        rows = con.execute(
-            f"select test, {', '.join(_ASKED)} from source where campaign = ? order by rowid", [campaign]
-        ).fetchall()
-    for test, *of_source in rows:
-        found.setdefault(test, []).append(dict(zip(_ASKED, of_source, strict=True)))
+        sources, events, files = (
+            _by_test(con, f"select * from {what} order by rowid", campaign)
+            for what in (
+                "source where campaign = ?",
+                "quality_event where campaign = ? and flag = 'gap'",
+                "file where campaign = ? and layer = 'raw'",
+            )
+        )
+    return with_lengths(with_pauses(sources, events), files)
+
+
+def _by_test(con: DuckDBPyConnection, asked: str, campaign: str) -> dict[str, list[dict[str, Any]]]:
+    from thermodata.store.base.connection import fetch
+
+    found: dict[str, list[dict[str, Any]]] = {}
+    for row in fetch(con, asked, [campaign]):
+        found.setdefault(row["test"], []).append(row)
     return found

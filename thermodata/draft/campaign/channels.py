@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from thermodata.draft.campaign.left_out import LeftOut
 from thermodata.draft.campaign.of_exports import as_exported
@@ -14,6 +14,7 @@ from thermodata.draft.campaign.said_of import said_of
 from thermodata.draft.campaign.wished_names import wished_name, with_series
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.probes.at_rail import at_rail
 from thermodata.draft.probes.jumps import JumpTest, is_length
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called
@@ -132,6 +133,8 @@ def _turned(source: _Source, name: str, one: OneSignal, said: Guess, jump: JumpT
     if said.quantity != "displacement":
         return Turned(said)
     if normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one):
+        if (asked := at_rail([v for _, v in one.seen()], said.unit)) is not None:
+            return Turned(replace(said, sure=False, questions=(*said.questions, asked)))
         return calibration_of(name, one.signal, said, jump, source.jumps)
     if jump is None and signed:
         return Turned(said, f"sign_{name}")

@@ -12,6 +12,7 @@ from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.packed_pieces import packed_pieces
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.folder.table import TestTable
+from thermodata.draft.folder.two_formats import two_formats
 from thermodata.draft.times.clocks import Alignment, repeats_question, set_back_question, start_question
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.zones import zone_as_before, zone_question
@@ -59,6 +60,7 @@ def _questions(group: Group, beside: Beside, *, zone_known: bool) -> Iterator[st
     yield from _of_clocks(group, beside)
     yield from group.questions
     yield from one_or_many(group, beside.groups, beside.table.rows if beside.table else ())
+    yield two_formats(group, beside.groups, beside.folder)
     yield from packed_pieces(group, beside.ignored)
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from thermodata.draft.files.raw_file import Asked, Part, RawFile, described_file
 from thermodata.draft.files.sample import Watch, sample_of
-from thermodata.draft.signals.values import bare_word
+from thermodata.draft.signals.numerals import bare_word
 from thermodata.draft.words.naming import words
 from thermodata.plugin import Array, Block, Head, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import guarded

@@ -21,6 +21,7 @@ from thermodata.reader.contract.guard import described
 from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
 from thermodata.reader.text.preamble.begin import BY_HALF, EITHER, NOT_TAKEN, UNREAD
+from thermodata.reader.text.rows.changed_cells import DOUBT
 from thermodata.reader.text.times.unpadded import UNPADDED
 from thermodata.reader.times.open_questions import ASK, UNKNOWN, YEAR
 from thermodata.reader.times.zone import NO_ZONE
@@ -217,6 +218,7 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
         asked += [Asked(_asked_unread(n), _START) for n in recording.notes if UNREAD in n]
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
+    asked += [Asked(f"stands: {n}", {}) for n in recording.notes if DOUBT in n]
     left = _without_times(recording, {name for a in asked for name in a.times})
     return replace(file, recording=left, delivered=recording, asked=tuple(asked), table=table or None)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.draft.signals import units
+from thermodata.draft.signals.numerals import asked
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
@@ -66,6 +67,8 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "str":
         if bare and values is not None and values.numerals:
+            if values.units is not None:
+                return Guess(None, unit, why_not=f"{asked(values.units)}, or quantity: label if they measure nothing")
             why = f"numbers kept as text ({values.span()}), which have no value: write them as numbers into the file"
             return Guess(None, unit, why_not=f"{why}, or quantity: label if they measure nothing")
         if bare and values is not None and values.text and not foreign_in(own):

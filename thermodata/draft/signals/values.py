@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,12 +10,12 @@ import numpy as np
 from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
 from thermodata.calibration.quality.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
+from thermodata.draft.signals.numerals import bare_word, numerals_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.units.quantity import linear_conversion
 
 _FEW = 8
-_NUMERAL, _MOSTLY = re.compile(r"[-+]?\d*[.,]?\d+([eE][-+]?\d+)?"), 0.9
 _LEAST_COUNTED = 10
 _NINES = re.compile(r"9{2,}\.?9{2,}")  # of any length, as a laser writes -99999.99999
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
@@ -29,8 +28,9 @@ class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
     second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
-    and 1; numerals: texts that are numbers, measured ones by their fractions. body: the range of 99 % of
-    many; None of few."""
+    and 1; numerals: texts that are numbers, measured ones by their fractions; units: where some of these have a unit,
+    or a letter for thousands, behind them, such a one and a bare one ('7.5 K', '800'; '' where all have). body: the
+    range of 99 % of many; None of few."""
 
     n: int
     low: float
@@ -45,6 +45,7 @@ class Values:
     counts: bool = False
     text: bool = False
     numerals: bool = False
+    units: tuple[str, str] | None = None
     body: tuple[float, float] | None = None
 
     @property
@@ -82,9 +83,9 @@ def values_of(column: Array) -> Values | None:
     if column.dtype.kind in "OUS" and (switched := _switched(column)) is not None:
         made = values_of(switched)
         return None if made is None else replace(made, text=True)
-    if column.dtype.kind in "OUS" and (numbers := _numerals(column)) is not None:
-        made = values_of(numbers)
-        return None if made is None else replace(made, numerals=True)
+    if column.dtype.kind in "OUS" and (kept := numerals_of(column.tolist())) is not None:
+        made = values_of(kept.numbers)
+        return None if made is None else replace(made, numerals=True, units=kept.units)
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
@@ -125,22 +126,6 @@ def _switched(column: Array) -> Float1D | None:
         return None
     numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
     return np.array([numbers.get(word, np.nan) for word in column.tolist()])
-
-
-def _numerals(column: Array) -> Float1D | None:
-    """Texts that are numbers with fractions, in digits of any script; None where words, or none but whole numbers, as
-    those of programs and lots, stand there. shape (n,)."""
-    spelled = {word: unicodedata.normalize("NFKC", bare_word(word)).replace("−", "-") for word in set(column.tolist())}
-    said = [s for s in spelled.values() if s]
-    numbers = {word: s.replace(",", ".") for word, s in spelled.items() if _NUMERAL.fullmatch(s)}
-    if len(numbers) <= _FEW or len(numbers) < _MOSTLY * len(said) or not any("." in s for s in numbers.values()):
-        return None
-    return np.array([float(numbers.get(word, "nan")) for word in column.tolist()])
-
-
-def bare_word(cell: object) -> str:
-    """A cell of words without blanks around it; '' where it is empty."""
-    return "" if cell is None or cell != cell else str(cell).strip()
 
 
 def _readings(x: Float1D) -> Float1D:
@@ -203,6 +188,7 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         one.counts and other.counts,
         one.text and other.text,
         one.numerals and other.numerals,
+        next((v.units for v in (one, other) if v.units is not None and v.units[1]), one.units or other.units),
         _joined_bodies(one, other),
     )
 

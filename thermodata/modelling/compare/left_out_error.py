@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from thermodata.view.grid.dataset import Dataset, TestData
 FOLDS = 6  # more tests than that are left out in groups
 Place = tuple[str, Key]
 """A response, and a test of it."""
+_Fold = tuple[Sequence[Key], Sequence[Key]]  # the tests that are fitted, and those that are left out
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,20 @@ class Errors:
         """In how many left-out tests (of each response) the error is smaller than another model's."""
         return sum(square < before.squares[place] for place, square in self.squares.items())
 
+    def at_least(self, before: Errors) -> float:
+        """What `over` comes to at least, where these are some of the tests and the others have an error of 0."""
+        shares = []
+        for name in dict.fromkeys(name for name, _ in before.samples):
+            if (was := before.rmse(name)) > 0:
+                total = sum(n for (of, _), n in before.samples.items() if of == name)
+                own = sum(n * self.squares[place] for place, n in self.samples.items() if place[0] == name)
+                shares.append(own / total / was**2)
+        return float(np.sqrt(np.mean(shares))) if shares else 1.0
+
+    def of(self, tests: Sequence[Key]) -> float:
+        """The sum of what is left in some tests."""
+        return sum(n * self.squares[place] for place, n in self.samples.items() if place[1] in tests)
+
 
 class LeftOut:
     """The open tests of a model (calibration and verification), in folds."""
@@ -74,20 +89,37 @@ class LeftOut:
 
     def errors(self, spec: Model) -> Errors:
         """UsageError where a fold can't be fitted, as where an effect is identified on the very test."""
+        return _together([self._of_fold(spec, fold) for fold in self._folds])
+
+    def errors_unless(self, spec: Model, before: Errors, hopeless: Callable[[Errors], bool]) -> Errors | None:
+        """The same; None as soon as the errors so far are hopeless, whatever comes of the other folds: those in which
+        another model leaves most come first."""
+        found: dict[int, Errors] = {}
+        for k in sorted(range(len(self._folds)), key=lambda k: -before.of(self._folds[k][1])):
+            found[k] = self._of_fold(spec, self._folds[k])
+            if hopeless(_together(list(found.values()))):
+                return None
+        return _together([found[k] for k in sorted(found)])
+
+    def unseen(self, spec: Model) -> Iterator[tuple[FittedResponse, TestData]]:
+        """Each open test with each response as the others give it. UsageError as above."""
+        for fold in self._folds:
+            yield from self._unseen(spec, fold)
+
+    def _of_fold(self, spec: Model, fold: _Fold) -> Errors:
         samples, squares = dict[Place, int](), dict[Place, float]()
-        for response, test in self.unseen(spec):
+        for response, test in self._unseen(spec, fold):
             left = response.residual(test)[response.mask(test)]
             samples[response.name, test.key] = len(left)
             squares[response.name, test.key] = float(np.var(left))
         return Errors(samples, squares)
 
-    def unseen(self, spec: Model) -> Iterator[tuple[FittedResponse, TestData]]:
-        """Each open test with each response as the others give it. UsageError as above."""
-        for train, group in self._folds:
-            for response in self._fit(self._with_orders(spec), train, group).responses:
-                for test in (self.data.test(*key) for key in group):
-                    if counts(response, test):
-                        yield response, test
+    def _unseen(self, spec: Model, fold: _Fold) -> Iterator[tuple[FittedResponse, TestData]]:
+        train, group = fold
+        for response in self._fit(self._with_orders(spec), train, group).responses:
+            for test in (self.data.test(*key) for key in group):
+                if counts(response, test):
+                    yield response, test
 
     def _fit(self, spec: Model, train: Sequence[Key], left_out: Sequence[Key]) -> FittedModel:
         roles = {"calibrate_on": in_full(train), "verify_on": in_full(left_out), "locked": in_full(self._locked)}
@@ -106,6 +138,14 @@ class LeftOut:
             found = chosen.get(name) if leaves_open(effect) else None
             effects.append(effect.model_copy(update=found) if found else effect)
         return spec.model_copy(update={"effects": effects})
+
+
+def _together(some: Sequence[Errors]) -> Errors:
+    samples, squares = dict[Place, int](), dict[Place, float]()
+    for one in some:
+        samples |= one.samples
+        squares |= one.squares
+    return Errors(samples, squares)
 
 
 def counts(response: FittedResponse, test: TestData) -> bool:

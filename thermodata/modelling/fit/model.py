@@ -33,8 +33,17 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     """Fit every response of a model. base: the folder that `file` of an effect is relative to (default: here).
 
     Tests that lack the response or a driver are skipped and named in `.skipped`. Raises SpecError where the spec does
-    not fit the data, UsageError where no calibration test is left.
+    not fit the data, UsageError where no calibration test is left. It runs on one core: its matrices are so small that
+    threads of the linear algebra library wait for each other, four times as long as they work.
     """
+    import scipy.optimize  # noqa: F401 - brings a library of its own, which is limited with the others
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1):
+        return _fit_model(spec, data, base, uncertainty=uncertainty)
+
+
+def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bool) -> FittedModel:
     inside = _fitter_of_models_inside(data, base)
     roles, bound = resolve(spec, data, base, inside)
     wanted = None if spec.phases is None else tuple(spec.phases)

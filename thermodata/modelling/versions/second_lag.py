@@ -125,12 +125,7 @@ def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: 
     response = next(r for r in whole.responses if any(t.id == ids[place] for t in r.terms))
     second = second_of(spec.effects[place], whole.term(ids[place]), ids, (spec.step, left_out.longest_s))
     more = spec.model_copy(update={"effects": [*spec.effects, second]})
-    try:
-        errors = left_out.errors(more)
-    except UsageError:
-        return None
-    share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
-    if share > 1 - FALL or better < BETTER * len(errors.squares):
+    if (errors := _worth(left_out, more, now)) is None:
         return None
     param = time_constant(spec.effects[place])
     assert param is not None
@@ -139,16 +134,29 @@ def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: 
         # a lag and its derivative: two huge gains that take each other away, as heat needs that passes two bodies
         # alike; so far apart they do nearly the same with gains that say something
         more = _parted(more, place, param, tau)
-        try:
-            errors = left_out.errors(more)
-        except UsageError:
-            return None
-        share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
-        if share > 1 - FALL or better < BETTER * len(errors.squares):
+        if (errors := _worth(left_out, more, now)) is None:
             return None
         tau = _taus(left_out.fitted(more), ids[place], second, param)
-    figures = now.rmse(response.name), errors.rmse(response.name), response.unit, better, len(errors.squares)
-    return _Trial(place, more, errors, share, SecondLag(ids[place], str(second.id), tau, param.unit, *figures))
+    better, tests = errors.better(now), len(errors.squares)
+    figures = now.rmse(response.name), errors.rmse(response.name), response.unit, better, tests
+    lag = SecondLag(ids[place], str(second.id), tau, param.unit, *figures)
+    return _Trial(place, more, errors, _share(errors, now), lag)
+
+
+def _worth(left_out: LeftOut, spec: Model, now: Errors) -> Errors | None:
+    """The errors of a model with a second lag; None where they say that it is not worth it, or can't be had."""
+    try:
+        errors = left_out.errors_unless(spec, now, lambda so_far: _is_hopeless(so_far, now))
+    except UsageError:
+        return None
+    if errors is None or _share(errors, now) > 1 - FALL or errors.better(now) < BETTER * len(errors.squares):
+        return None
+    return errors
+
+
+def _share(errors: Errors, now: Errors) -> float:
+    """Of the error that is left: of all samples, or of the typical test."""
+    return max(errors.over(now), errors.typical(now))
 
 
 def _taus(fitted: FittedModel, first: str, second: EffectSpec, param: Param) -> tuple[float, float]:
@@ -166,6 +174,16 @@ def _parted(spec: Model, place: int, param: Param, tau: tuple[float, float]) -> 
         kept = (own[0] if lower is None else lower, own[1] if upper is None else upper)
         effects[i] = effects[i].model_copy(update={"bounds": {**effects[i].bounds, param.name: kept}})
     return spec.model_copy(update={"effects": effects})
+
+
+def _is_hopeless(so_far: Errors, now: Errors) -> bool:
+    """Whether the tests that were left out so far tell already that a second lag is not worth it: most of what an
+    effect's second lag costs goes into the fits of folds, and most second lags help in none."""
+    if any(now.samples.get(place) != n for place, n in so_far.samples.items()):
+        return False
+    tests = len(now.squares)
+    best = tests - (len(so_far.squares) - so_far.better(now))
+    return best < BETTER * tests or so_far.at_least(now) > (1 - FALL) * (1 + 1e-9)
 
 
 def is_lag_of(identity: str, of: str) -> bool:

@@ -16,6 +16,7 @@ from thermodata.store.ingest.known.file_versions import SUPERSEDED
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import settled
 from thermodata.store.tidy.plan import derive
+from thermodata.store.trace.jump_rows import jump_rows
 from thermodata.store.trace.replan import read_campaign
 from thermodata.store.trace.reread import reread
 from thermodata.store.trace.sample import find_sample
@@ -52,7 +53,7 @@ def trace(
             return tracer.test()
         if channel not in tracer.channels:
             raise unknown_channel(channel, list(tracer.channels))
-        return tracer.head() | tracer.channel(channel, t_s)
+        return tracer.head() | tracer.channel(channel, t_s, at_sample=t_s is not None)
 
 
 def _model_or_which_test(store: Store, name: str) -> Answer:
@@ -107,14 +108,14 @@ class _Tracer:
             "channels": list(self.channels),
         }
 
-    def channel(self, name: str, t_s: float | None) -> Answer:
+    def channel(self, name: str, t_s: float | None, *, at_sample: bool) -> Answer:
+        """at_sample: the rows of jump tests are told too."""
         row = self.channels[name]
         here = [f for f in self.files if (f["source"], f["stream"]) == (row["source"], row["stream"])]
         source = next((s for s in self.sources if (s["source"], s["stream"]) == (row["source"], row["stream"])), None)
         named = [n for n in (row["calibration"] or "").split(", ") if n]
         steps = [
-            {k: _decoded(v) for k, v in c.items() if k != "campaign"}
-            | {"files": self._files([f for f in self.jumps if f["source"] == c["calibration"]])}
+            {k: _decoded(v) for k, v in c.items() if k != "campaign"} | self._jump(c, at_sample=at_sample)
             for n in named
             for c in self.calibrations
             if c["calibration"] == n
@@ -139,9 +140,22 @@ class _Tracer:
             )
         if answer["derive"]:
             answer["operands"] = [
-                self.channel(n, None) for n in sorted(derive.names(answer["derive"])) if n in self.channels
+                self.channel(n, None, at_sample=at_sample)
+                for n in sorted(derive.names(answer["derive"]))
+                if n in self.channels
             ]
         return answer
+
+    def _jump(self, calibration: Answer, *, at_sample: bool) -> Answer:
+        """The files of a calibration that a jump test gave, and for a sample the rows of its plateaus."""
+        name = calibration["calibration"]
+        files = [f for f in self.jumps if f["source"] == name]
+        raws = [RawStream.from_row(f) for f in files if f["layer"] == "raw"] if at_sample else []
+        plateaus = json.loads(calibration["detail"] or "{}").get("plateaus", [])
+        return {
+            "files": self._files(files),
+            "rows": jump_rows(self.store.path, self.spec, name, plateaus, raws) or None,
+        }
 
     def _files(self, rows: list[Answer]) -> list[Answer]:
         earlier = [r for r in rows if r["layer"] == SUPERSEDED]

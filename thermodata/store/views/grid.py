@@ -7,7 +7,8 @@ valid ones; of a speed, feed, load, current or torque that goes both ways in the
 direction. States, labels and schedules are held: the last valid value in the bin or before it. A number that is
 written on change is held too, until a row says that there is none, and a bin has its mean over the time. Where a source
 is slower than the step (period over half a step), empty bins between valid ones are interpolated linearly, over
-at most INTERPOLATED_PERIODS of the source's period; every other bin without a valid sample is NULL.
+at most INTERPOLATED_PERIODS of the source's period, and between two signs of what heats either way its size is; every
+other bin without a valid sample is NULL.
 
 `aligned` is for looking. Each point shows the last sample at or before it, whatever its flag (beside it as
 `<channel>__flag`); a measurement older than AGED_PERIODS of its source's period, and the step, is NULL.
@@ -187,10 +188,13 @@ def _value(i: int, column: Column) -> str:
         return f"case when {v} is null then nullif({pv}, 'nan'::double) else {mean} end"
     if column.held:
         return pv
-    return (
-        f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} "
-        f"then {pv} + ({nv} - {pv}) * (w.k - {pk}) / ({nk} - {pk}) end"
-    )
+    share = f"(w.k - {pk}) / ({nk} - {pk})"
+    between = f"{pv} + ({nv} - {pv}) * {share}"
+    if column.quantity in UNDIRECTED:
+        # a line from one sign to the other goes through nought, where the axis may never have stood
+        size = f"abs({pv}) + (abs({nv}) - abs({pv})) * {share}"
+        between = f"case when {pv} * {nv} < 0 then {size} else {between} end"
+    return f"case when {v} is not null then {v} when {nk} - {pk} <= w.reach__{i} then {between} end"
 
 
 def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> str:

@@ -34,9 +34,10 @@ def reach_bins(period_s: float, step_s: float) -> float:
     return max(BRIDGE_S, INTERPOLATED_PERIODS * period_s) / step_s
 
 
-def bridge(value: Float1D, reach: float) -> Float1D:
+def bridge(value: Float1D, reach: float, undirected: bool = False) -> Float1D:
     """Linear interpolation between known neighbours at most `reach` bins apart; the nearest value over the same
-    distance at both ends. What is further from a known value stays NaN."""
+    distance at both ends. What is further from a known value stays NaN. undirected: between neighbours of two signs
+    the size is interpolated, for a line through nought makes the axis stand that only turned."""
     known = np.flatnonzero(np.isfinite(value))
     if known.size in (0, value.size) or reach < 1:
         return value
@@ -48,4 +49,7 @@ def bridge(value: Float1D, reach: float) -> Float1D:
     ends = np.isnan(value) & ~inside & (np.minimum(np.abs(grid - before), np.abs(grid - after)) <= reach)
     out = value.copy()
     out[filled | ends] = np.interp(grid[filled | ends], known, value[known])
+    if undirected:
+        turned = filled & (value[before] * value[after] < 0)
+        out[turned] = np.interp(grid[turned], known, np.abs(value[known]))
     return out

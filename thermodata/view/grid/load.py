@@ -3,9 +3,9 @@
 A bin's value is the mean of its valid samples, states are held, and bin k stands at t_s = k * step_s, its start.
 Drivers (every quantity but displacement, tilt and angle) are interpolated over gaps of up to BRIDGE_S, or
 INTERPOLATED_PERIODS of a slow source, and carry their nearest value that far at both ends: a filter over them
-can't run through a hole. Those three are NaN and invalid wherever a bin has no valid sample, so no displacement
-that was made up is ever fitted or scored. A history before the window comes first, with negative t_s and
-in_window False.
+can't run through a hole. Between two signs of what heats either way its size is interpolated. Displacements, tilts
+and angles are NaN and invalid wherever a bin has no valid sample, so no displacement that was made up is ever fitted
+or scored. A history before the window comes first, with negative t_s and in_window False.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.units.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED, UNDIRECTED
 from thermodata.store.catalogue.data_version import joined, versions
 from thermodata.view.grid.at_work import with_limits
 from thermodata.view.grid.bins import Binned, Series, bin_tests
@@ -165,5 +165,5 @@ def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: f
         return value, np.isfinite(value)
     value = on_grid(series.k, series.value, binned.first, size)
     if quantity not in MEASURED:
-        value = bridge(value, reach_bins(series.period_s, step_s))
+        value = bridge(value, reach_bins(series.period_s, step_s), quantity in UNDIRECTED)
     return value, np.isfinite(value)

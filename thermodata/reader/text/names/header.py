@@ -21,6 +21,10 @@ _RATE = re.compile(r"^(?:in|inch|ft|gal|cc|[°º][CF]?)\s?/\s?(?:s|sec|min|h)$")
 _HAS_SIGN = re.compile(r"^(?!%[IQM][XBWDL]?\d)(?:[^;\[\]]{0,12}[°º˚%‰][^;\[\]]{0,12}|[\"″])$")
 # '°C*10', 'x1000 rpm': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
 _TIMES_TEN = re.compile(r"\s*[*·×x]\s*10+$|^[*·×x]\s*10+\s*")
+# '°C [bed]', 'µm (Z)': the unit first, and in the brackets what it is of; other units are names as well: 'V [left]'
+_UNIT_FIRST = re.compile(
+    r"^(?P<unit>(?:[°º˚]|deg) ?[CF]|[uµμ]m)\s*(?:\[(?=[^\[\]]*\]$)|\((?=[^()]*\)$))(?P<name>[^\W\d_].*).$"
+)
 _WORDS = ("HP", "CV", "OC")  # in round brackets: high pressure, a controlled value, an overcurrent
 _TRAILING = re.compile(
     r"^(?P<name>.*?)(?P<gap>\s*)"
@@ -48,6 +52,9 @@ def split_unit(header: str) -> tuple[str, str | None]:
     write a unit elsewhere, see `_unit_within`.
     """
     header = header.strip()
+    first = _UNIT_FIRST.match(header)
+    if first is not None and not looks_like_unit(first["name"]):
+        return first["name"].strip(), first["unit"]
     found = _unit_at_end(header)
     return found if found[1] is not None else _unit_within(header)
 

@@ -203,7 +203,12 @@ def _note(said: HeadStart) -> str:
     shown = said.text[:_LONGEST]
     if said.several:
         return f"the head says '{shown}', and another start on another line, {NOT_TAKEN}: give each test its start"
-    return f"the head says '{shown}', {NOT_TAKEN}; {_HINT}"
+    return not_taken_note(said.text)
+
+
+def not_taken_note(text: str, who: str = "the head") -> str:
+    """What is told of a start that nobody declared to be that of the rows. who: says the text."""
+    return f"{who} says '{text[:_LONGEST]}', {NOT_TAKEN}; {_HINT}"
 
 
 def _either(said: HeadStart) -> str:

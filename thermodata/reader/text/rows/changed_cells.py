@@ -8,6 +8,7 @@ somebody sets (0, 4000, 0), the first of them in the first row, are told as well
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -26,6 +27,7 @@ from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.sentences import with_count
 
 KEY = "stands"  # of a table's layout
+DOUBT = "most cells are empty"  # of columns that may stand
 _LEAST = 30  # written cells that prove it
 _REPEATS = 0.02  # of them may repeat the one before: two rounded alike, a piece of the file left out between them
 _CONTRARY, _LEAST_CONTRARY = 0.1, 5  # a share of repeats that a log of changes never has, of so many cells
@@ -132,7 +134,9 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
         for k in wordless
         if said[k].is_sparse or said[k].is_first_alone or _sparse_later(names[k], columns[names[k]], filled[k], full)
     ]
-    return frozenset(), _doubt([names[k] for k in doubtful])
+    # of cells in rows of all alone nobody knows whether they repeat
+    again = "" if any(said[k].is_first_alone for k in doubtful) else ", and no value repeats the one before"
+    return frozenset(), _doubt([names[k] for k in doubtful], again)
 
 
 def _sparse_later(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> bool:
@@ -142,15 +146,20 @@ def _sparse_later(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D)
     return head > 1 and later is not None and later.is_sparse
 
 
-def _doubt(sparse: Sequence[str]) -> str | None:
-    """A note on columns of few numbers, none of which repeats the one before."""
+def _doubt(sparse: Sequence[str], again: str) -> str | None:
+    """A note on columns of few numbers. again: what is known of how these repeat."""
     if not sparse:
         return None
     shown = ", ".join(f"'{name}'" for name in sparse[:_SHOWN])
     return (
-        f"{shown}: most cells are empty, and no value repeats the one before: where each stands until the next one, "
-        f"declare table: {{{KEY}: [{', '.join(sparse[:_SHOWN])}]}}, or all; else none"
+        f"{shown}: {DOUBT}{again}: where each stands until the next one, "
+        f"declare table: {{{KEY}: [{', '.join(map(_in_yaml, sparse[:_SHOWN]))}]}}, or all; else none"
     )
+
+
+def _in_yaml(name: str) -> str:
+    """A name as a list of YAML has it: in quotes where its brackets or commas would be the list's."""
+    return name if re.fullmatch(r"[^\W\d][\w .-]*", name) else f"'{name.replace(chr(39), chr(39) * 2)}'"
 
 
 def declared_standing(

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
-from thermodata.plugin import Array, Int1D
+from thermodata.plugin import Array
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
 from thermodata.schema.units.quantity import converts, linear_conversion
 from thermodata.schema.words.sentences import counted
@@ -45,14 +46,14 @@ def evaluate(
             if not raws:
                 continue
             try:
-                t_ns, volts, others, unit = _jump_data(store, campaign, spec, raws)
+                data = jump_data(store, campaign, spec, raws)
             except CalibrationError:
                 raise
             except ThermodataError as error:
                 problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
                 continue
             try:
-                results[name] = evaluate_jump(name, spec, t_ns, volts, others, unit=unit)
+                results[name] = evaluate_jump(name, spec, data.line.t_ns, data.volts, data.others, unit=data.unit)
             except RailError as error:  # the probe's own trouble: the other channels don't lean on it
                 problems.append(f"calibration '{name}': " + "; ".join(str(error).splitlines()))
                 continue
@@ -93,10 +94,20 @@ def _users(campaign: Campaign, calibration: str) -> list[Channel]:
     ]
 
 
-def _jump_data(
-    store: Path, campaign: Campaign, spec: JumpCalibration, raws: list[RawStream]
-) -> tuple[Int1D, Array, dict[str, Array], str]:
-    """(times, the probe's signal, the other probes' signals, their unit): volts where the unit is a voltage."""
+@dataclass(frozen=True, slots=True)
+class JumpData:
+    """The recording of a jump test. line: its rows in the order of time. signal: of the probe, as its file calls it.
+    volts: what it says, shape (n,), and others, the other probes by signal, in unit: V where that is a voltage."""
+
+    line: Timeline
+    signal: str
+    volts: Array
+    others: dict[str, Array]
+    unit: str
+
+
+def jump_data(store: Path, campaign: Campaign, spec: JumpCalibration, raws: list[RawStream]) -> JumpData:
+    """raws: the streams of its file. UsageError where the signal is not there, or has no values."""
     raw, signal, written = find_signal(raws, spec.signal)
     line = build(store, [r for r in raws if r.stream == raw.stream], Clock(), resets_allowed=False)
     written = (
@@ -122,7 +133,7 @@ def _jump_data(
         other_unit = channel.unit or other_unit or unit
         if other.name != signal.name and other.name not in others and converts(other_unit, unit):
             others[other.name] = _scaled(store, line, raw, other.name, other_unit, unit)
-    return line.t_ns, probe, others, unit
+    return JumpData(line, signal.name, probe, others, unit)
 
 
 def probes_across(campaign: Campaign, spec: JumpCalibration) -> list[Channel]:

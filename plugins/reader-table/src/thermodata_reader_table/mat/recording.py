@@ -6,18 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.preamble.head_start import head_start
-from thermodata.reader.text.preamble.head_words import Says
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.mat.files import opened
 from thermodata_reader_table.mat.timed_streams import LOOK, Clocked, TimedStream
-from thermodata_reader_table.mat.tree import Text, Tree
 
 _BLOCK_VALUES = 1_000_000
 
@@ -40,23 +35,8 @@ def describe(path: Path, source: Source) -> Recording:
             "absolute" if found.absolute else "relative",
             start,
             tree.complete,
-            (*found.notes, *_start_beside(tree, found)),
+            tuple(found.notes),
         )
-
-
-def _start_beside(tree: Tree, found: Clocked) -> list[str]:
-    """That a text beside the signals says when they began, where their times only count from a start."""
-    if found.absolute:
-        return []
-    said = head_start([[name, *node.lines] for name, node in tree.variables.items() if isinstance(node, Text)])
-    if said is None or said.says is not Says.BEGAN:
-        return []
-    began = np.datetime64(said.date_ns + (said.clock_ns or 0), "ns").astype("datetime64[s]").item()
-    local = "(local to the timezone of its source)" if said.zoned else f"{began:%Y-%m-%d %H:%M:%S}"
-    return [
-        f"a text beside the signals says when they began ({said.text}); times of a MAT file that count from a start "
-        f"are not dated by it: if it is right, the test wants start: {local}"
-    ]
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:

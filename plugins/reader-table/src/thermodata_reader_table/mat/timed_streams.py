@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.times import time_units
 from thermodata.reader.times.wrapped_counter import may_begin_anew
+from thermodata_reader_table.mat.begun_beside import Begun, begun_beside
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
 from thermodata_reader_table.mat.tree import Tree
@@ -26,7 +27,8 @@ LOOK = 2000  # rows by which a clock is judged
 
 @dataclass(frozen=True)
 class TimedStream:
-    """A stream with its clock understood. unit: of clocks; None for dates as text (then whole holds all)."""
+    """A stream with its clock understood. unit: of clocks; None for dates as text (then whole holds all). begun: what
+    its times count from, where that is declared."""
 
     name: str
     time: TimeVector
@@ -36,9 +38,14 @@ class TimedStream:
     absolute: bool
     properties: Mapping[str, str]
     whole: Int1D | None
+    begun: Begun | None = None
 
     def times(self, start: int, stop: int) -> Int1D:
         """Times of rows [start, stop) in ns, shape (n,); NAT where a row has none."""
+        own = self._own(start, stop)
+        return own if self.begun is None else self.begun.utc(own)
+
+    def _own(self, start: int, stop: int) -> Int1D:
         if self.whole is not None:
             return self.whole[start:stop]
         if self.time.load is None:
@@ -73,6 +80,15 @@ class Clocked:
                 "of their own, or save them so",
             )
         self.absolute = kinds == {True}
+        self._begin(tree)
+
+    def _begin(self, tree: Tree) -> None:
+        """Dates what counts from a start that a text beside the signals says, where it is declared to."""
+        begun, notes = begun_beside(tree, self.streams, self.source, self.where)
+        self._note(tuple(notes))
+        if begun is not None:
+            self.streams = [replace(s, begun=begun, absolute=True) for s in self.streams]
+            self.absolute = True
 
     def _timed(self, name: str, stream: Stream) -> TimedStream:
         time, unit = stream.time, None
