@@ -48,8 +48,9 @@ def clock_offsets(
 
     base(test): the model's columns, shape (n, k); otherwise(test): how its effects may act otherwise, likewise.
     sources: channel -> source, of the model's drivers. warm: those that are temperatures. The smallest error must lie
-    at a shift, not at zero and not at the end of the range, where something slower is at work; and moved, the model
-    must leave as much less where its effects may act otherwise: heat that passes two bodies comes late by itself.
+    at a shift, not at zero and not at the end of the range, where something slower is at work; and where the drivers
+    are moved to come later, it must fall as much where the effects may act otherwise: heat that passes two bodies comes
+    late by itself, and none comes early.
     """
 
     def freed(test: TestData) -> Float2D:
@@ -64,7 +65,7 @@ def clock_offsets(
         drop = WARM_CLOCK_DROP if names <= {*warm} else CLOCK_DROP
         best = shift_that_explains(now, errors, energy, drop)
         if best is not None and (
-            _error(problem, freed, dict.fromkeys(names, best)) < (1 - drop) * _error(problem, freed, {})
+            best < 0 or _error(problem, freed, dict.fromkeys(names, best)) < (1 - drop) * _error(problem, freed, {})
         ):
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
