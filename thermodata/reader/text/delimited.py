@@ -19,6 +19,7 @@ from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.named_values import all_in_columns
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.stamped_lines import all_with_stamp
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import in_one_unit
@@ -238,6 +239,8 @@ def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     for chunk in chunks(path, table.sample.encoding):
         if table.named:
             chunk = replace(chunk, data=all_in_columns(chunk.data, table.named))
+        if table.stamped:
+            chunk = replace(chunk, data=all_with_stamp(chunk.data, table.stamped))
         if table.blanks:
             chunk = replace(chunk, data=parted_bytes(chunk.data))
         yield from reader.read(_without_header(chunk, table.layout.first))

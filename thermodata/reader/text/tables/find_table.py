@@ -149,6 +149,7 @@ def find_table(
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
         named=whole.named,
+        stamped=whole.stamped,
         begin=begin,
         zone=zone,
         unit=columns.unit,

@@ -62,8 +62,8 @@ def refuse_long(
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + with_dots(said, 4),
-        hint=f"declare table: {{series: [{_written(names[tag])}]}}: its rows are taken apart, each name is a signal of its "
-        "own; or, with a column of dates and times, and columns called tag and value, the reader cnc does so",
+        hint=f"declare table: {{series: [{_written(names[tag])}]}}: its rows are taken apart, each name is a signal "
+        "of its own; or, with a column of dates and times, and columns called tag and value, the reader cnc does so",
     )
 
 
