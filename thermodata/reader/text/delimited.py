@@ -64,14 +64,15 @@ def signals(table: Table) -> tuple[Signal, ...]:
     )
     if table.series is not None:
         return table.series.signals(found)
-    told = table.unit
-    if told is None:
-        return found
+    told = (*table.paired, *([table.unit] if table.unit else []))
 
     def with_unit(signal: Signal) -> Signal:
-        if signal.name == told.column:
-            return replace(signal, properties={**signal.properties, UNIT_OF: told.of})
-        return replace(signal, unit=told.unit) if signal.name == told.of else signal
+        for one in told:
+            if signal.name == one.column:
+                return replace(signal, properties={**signal.properties, UNIT_OF: one.of})
+            if signal.name == one.of:
+                return replace(signal, unit=one.unit)
+        return signal
 
     return tuple(map(with_unit, found))
 
@@ -226,6 +227,8 @@ def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     """The rows in chunks of the file, and a loss for each part that does not read."""
     rows = _rows(path, table, source)
     if table.series is None:
+        for one in table.paired:
+            rows = in_one_unit(rows, one, table.name, whole=True)
         yield from rows if table.unit is None else in_one_unit(rows, table.unit, table.name)
         return
     apart = TakenApart(table.series, table.name)

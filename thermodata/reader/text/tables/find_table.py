@@ -153,6 +153,7 @@ def find_table(
         begin=begin,
         zone=zone,
         unit=columns.unit,
+        paired=columns.paired,
         units_told=columns.units_told,
         stands=columns.stands,
     )

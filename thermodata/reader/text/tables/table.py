@@ -86,8 +86,9 @@ class Table:
     line, which become columns so; stamped: what parts the cells of lines behind the clock of a terminal, '' of others;
     begin: what its times count from, where its head says so; zone: what a line above the rows says of it, and that
     line; series: how rows of several sensors or hosts are taken apart; unit: the column that holds the one of its
-    numbers; units_told: the note on such a column, of rows that are of no series; stands: columns whose empty cells say
-    that the value before them still stands."""
+    numbers; paired: those that each hold the one of another column, as their names say; units_told: the note on a
+    column of units, of rows that are of no series; stands: columns whose empty cells say that the value before them
+    still stands."""
 
     name: str
     sample: Sample
@@ -108,6 +109,7 @@ class Table:
     zone: tuple[str, str] | None = None
     series: Series | None = None
     unit: UnitColumn | None = None
+    paired: tuple[UnitColumn, ...] = ()
     units_told: str | None = None
     stands: frozenset[int] = frozenset()
 
