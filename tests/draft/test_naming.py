@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from thermodata.draft.campaign.wished_names import wished_name
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.signals.values import joined, values_of
@@ -134,3 +135,16 @@ def test_values_of_samples_add_up() -> None:
     assert joined(None, two) == two
     assert values_of(np.array(["a"], dtype=object)) is None
     assert values_of(np.full(3, np.nan)) is None
+
+
+@pytest.mark.parametrize(
+    ("signal", "unit", "name"),
+    [
+        ("1 s/Last [%]", "%", "Last"),
+        ("Spindel/Last [%]", "%", "Spindel_Last"),
+        ("T_bed/Last", None, "T_bed_Last"),
+        ("T_bed/Max", "degC", "T_bed_Max"),
+    ],
+)
+def test_a_load_in_german_below_an_interval_is_no_statistic(signal: str, unit: str | None, name: str) -> None:
+    assert wished_name(signal, guess(signal, unit, "float64")) == name

@@ -239,10 +239,10 @@ def test_stamps_in_an_odd_spelling_are_drafted_with_their_format(lab: Lab, form:
 
 
 @pytest.mark.parametrize(
-    "form", ["%Y-%m-%d %H-%M-%S CEST", "%d. März %Y %H:%M:%S", "%Y-%j %H:%M:%S", "%d/%m/%y %H-%M-%S"]
+    "form", ["%Y-%m-%d %H-%M-%S CEST", "%d. Monat %Y %H:%M:%S", "%Y-%j %H:%M:%S", "%d/%m/%y %H-%M-%S"]
 )
 def test_a_format_that_is_not_sure_is_asked_for(lab: Lab, form: str) -> None:
-    """A zone by its letters, a month in another language, a day of the year, day and month either way round."""
+    """A zone by its letters, a word that is no month, a day of the year, day and month either way round."""
     first = datetime(2026, 3, 2, 8)
     lab.write("raw/a.csv", "time;T\n" + rows([f"{first + timedelta(seconds=10 * i):{form}}" for i in range(60)]))
     assert lab("init", lab.folder).code == 0

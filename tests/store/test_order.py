@@ -127,3 +127,37 @@ def test_the_size_of_the_chunks_does_not_matter(faults: list[tuple[int, str, int
         order_module.CHUNK_ROWS = before
     assert again.tolist() == times.tolist()
     assert cut.marked.tolist() == whole.marked.tolist()
+
+
+@pytest.mark.parametrize(("first", "period"), [(380, 10.0), (4, 1.0), (996, 1.0), (500, 1.0)])
+@pytest.mark.parametrize("allowed", [False, True])
+def test_a_ring_buffer_is_put_in_the_order_of_its_times(first: int, period: float, allowed: bool) -> None:
+    t = clock(1000, period)
+    found, made = ordered(np.concatenate([t[-first:], t[:-first]]), allowed=allowed)
+    assert found.keep == 1000
+    assert made.tolist() == t.tolist()
+    assert found.extent == (t[0], t[-1])
+    assert found.notes == (
+        f"a ring buffer: its oldest rows stand from row {first + 1} on, and are put before the others",
+    )
+    assert not found.marked.size
+
+
+def test_a_ring_buffer_of_several_rows_a_time_and_a_row_that_is_missing_at_its_seam() -> None:
+    t = np.repeat(clock(1000, 10.0), 3)
+    found, made = ordered(np.concatenate([t[1503:], t[:1497]]))
+    assert found.keep == len(t) - 6
+    assert made.tolist() == np.concatenate([t[:1497], t[1503:]]).tolist()
+
+
+@pytest.mark.parametrize("pause_s", [31.0, 300.0, -5.0])
+def test_a_part_that_ends_otherwise_than_a_period_before_the_first_row_is_no_ring(pause_s: float) -> None:
+    t = clock(1000, 10.0)
+    t[400:] += round((pause_s - 10) * S) if pause_s > 0 else -50 * S
+    assert ordered(np.concatenate([t[400:], t[:400]]))[0].keep == 600
+    assert ordered(np.concatenate([t[400:], t[:400]]), allowed=True)[0].keep == 1000
+
+
+def test_two_steps_back_are_no_ring() -> None:
+    t = clock(900)
+    assert ordered(np.concatenate([t[600:], t[300:600], t[:300]]))[0].keep == 300

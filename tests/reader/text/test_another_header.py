@@ -168,3 +168,35 @@ def test_a_list_of_channels_above_the_table_is_no_table_of_its_own(tmp_path: Pat
     data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
     assert data.t_ns["table"].size == 30
     assert not data.losses
+
+
+TOA5 = '"TOA5","VR5","CR1000X"\n"TIMESTAMP","RECORD","Sonda_Z","T"\n"TS","RN","{unit}","{other}"\n"","","Smp","Avg"'
+ROW = '"2026-03-02 {h:02d}:{m:02d}:00",{m},0.{m},2{m}.5'
+
+
+@pytest.mark.parametrize(
+    ("unit", "then", "other"),
+    [("Volts", "mVolts", "Deg C"), ("mVolts", "Volts", "Deg C"), ("cnts", "mcnts", "foo"), ("mV", "um", "bar_x")],
+)
+def test_a_logger_whose_program_changes_a_unit_is_read_up_to_there(
+    tmp_path: Path, unit: str, then: str, other: str
+) -> None:
+    """A row with TS and RN is one of units, whatever words stand in it: these are compared as texts."""
+    data = read(tmp_path, TOA5.format(unit=unit, other=other), TOA5.format(unit=then, other=other), ROW)
+    assert data.t_ns["table"].size == 30
+    (loss,) = [loss for loss in data.losses if "other units" in loss.reason]
+    assert f"'Sonda_Z' in {then}, in {unit} before" in loss.reason
+
+
+def test_a_logger_that_writes_its_header_again_is_read_on(tmp_path: Path) -> None:
+    head = TOA5.format(unit="cnts", other="foo")
+    assert read(tmp_path, head, head, ROW).t_ns["table"].size == 60
+
+
+def test_units_above_the_names_of_a_loggers_channels_are_theirs(tmp_path: Path) -> None:
+    """Fluke DAQ: numbers of channels, units, and the names that somebody gave them."""
+    rows = [f"07/07/2026 08:00:{k:02d}.0,+021.{k}E+0,+0.0{k}" for k in range(10, 40)]
+    head = ['"Time","0001","0011"', '"","C","mV"', '"Scan","Front brg","Z probe"']
+    (tmp_path / "f.csv").write_text("\n".join([*head, *rows, ""]), encoding="utf-8")
+    about = Reader().describe(tmp_path / "f.csv", Source(timezone="UTC", table={"time": {"format": "mdy"}}))
+    assert {s.name: s.unit for s in about.signals} == {"Front brg": "C", "Z probe": "mV"}

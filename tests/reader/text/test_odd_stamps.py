@@ -40,7 +40,7 @@ def test_the_format_that_fits_all_stamps(form: str, step: timedelta) -> None:
 
 @pytest.mark.parametrize(
     "form",
-    ["%Y-%m-%d %H:%M:%S CEST", "%d. März %Y %H:%M", "%Y-%m-%d %H:%M:%S+01:00", "%Y-%j", "%H%M%S", "%S:%M", "x%d"],
+    ["%Y-%m-%d %H:%M:%S CEST", "%d. Monat %Y %H:%M", "%Y-%m-%d %H:%M:%S+01:00", "%Y-%j", "%H%M%S", "%S:%M", "x%d"],
 )
 def test_none_where_a_part_is_not_understood(form: str) -> None:
     assert guess_format(stamps(form, timedelta(hours=1))) is None

@@ -9,12 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from thermodata_reader_table import Reader
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.times.spans import SPAN, are_spans, is_span
 from thermodata.reader.times.zone import NAT
+from thermodata.testing.reader import load
 
 ROWS, START_S = 300, 86_400 - 1_000
 S = 10**9
@@ -168,3 +170,11 @@ def test_spans_under_another_name_are_asked_about(tmp_path: Path) -> None:
         delimited.open_table(tmp_path / "log.csv", Source())
     table = delimited.open_table(tmp_path / "log.csv", Source(table={"time": {"column": "Dwell"}}))
     assert table.groups[0].formats == (SPAN,)
+
+
+def test_the_row_times_of_a_timetable_are_its_time(tmp_path: Path) -> None:
+    """MATLAB's writetimetable calls them so."""
+    rows = [f"{10 * k} sec,{20 + k / 100}" for k in range(60)]
+    (tmp_path / "m.csv").write_text("\n".join(["RowTimes,T_bed", *rows, ""]), encoding="utf-8")
+    data = load(Reader(), tmp_path / "m.csv", Source())
+    assert set(np.diff(data.t_ns["table"]).tolist()) == {10_000_000_000}

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from thermodata_reader_table import Reader
 
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.tables.row_series import with_series
+from thermodata.testing.reader import load
 
 
 def _read(path: Path, units: list[str], head: str = "Date/Time,Unit,Value") -> tuple[str | None, int, list[str]]:
@@ -104,3 +106,29 @@ def test_units_that_differ_and_are_not_taken_are_told(tmp_path: Path) -> None:
     rows = ["20.5;°C"] * 20 + ["3.5;bar"] * 20
     notes = _values(tmp_path / "b.csv", "Wert", "Time;Wert;Einheit", *rows)[2]
     assert any("'Einheit' says several units (°C, bar)" in note for note in notes)
+
+
+def test_each_column_of_units_is_of_the_column_of_values_that_it_is_called_after(tmp_path: Path) -> None:
+    """Lutron: Ch1_Value, Ch1_Unit, Ch2_Value, Ch2_Unit; the second changes its unit within the file."""
+    rows = [
+        f"{k + 1},2026/05/04,23:00:{k:02d},70.{k},Degree F,{'21.5,Degree C' if k < 40 else '212.0,Degree F'}"
+        for k in range(60)
+    ]
+    path = tmp_path / "tmc.csv"
+    head = "Position,Date,Time,Ch1_Value,Ch1_Unit,Ch2_Value,Ch2_Unit"
+    path.write_text("\n".join([head, *rows, ""]), encoding="utf-8")
+    source = Source(timezone="UTC")
+    units = {s.name: s.unit for s in Reader().describe(path, source).signals}
+    assert (units["Ch1_Value"], units["Ch2_Value"]) == ("Degree F", "Degree C")
+    data = load(Reader(), path, source)
+    (second,) = [v for (_, name), v in data.values.items() if name == "Ch2_Value"]
+    assert second[:40].tolist() == [21.5] * 40
+    assert second[40:].tolist() == pytest.approx([100.0] * 20)
+
+
+@pytest.mark.parametrize("units", ["Degree F", "rainy", "E"])
+def test_a_column_called_after_no_column_of_values_is_none_of_units(tmp_path: Path, units: str) -> None:
+    rows = [f"2026-05-04 23:00:{k:02d},70.{k},21.5,{units}" for k in range(60)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["time,Ch1_Value,Ch2_Value,Ch3_Unit", *rows, ""]), encoding="utf-8")
+    assert {s.unit for s in Reader().describe(path, Source(timezone="UTC")).signals} == {None}

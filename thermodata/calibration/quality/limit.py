@@ -20,10 +20,20 @@ _POSSIBLE = {
     "temperature_difference": (-1500.0, 1500.0),
     "irradiance": (-100.0, 3000.0),
     "flow": (-1e5, 1e5),
+    # no machine is so long, strong or fast, in whatever unit of its kind somebody took the log to be; a multimeter's
+    # overload of 1E+9 is none of it
+    **dict.fromkeys(("displacement", "position", "tilt", "angle", "voltage"), (-1e8, 1e8)),
+    **dict.fromkeys(("power", "load", "current", "torque", "feed"), (-1e6, 1e6)),
+    "pressure": (-1e7, 1e7),
 }
 # What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines, with and
 # without decimals, also as a number of single precision holds these.
-_FULL_SCALE = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0])
+_COUNTER = [32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0]
+# ... those of 32 bits in tenths to thousandths, as double and as single precision, and what multimeters write for an
+# overload (Fluke +001.00E+9, others 9E+9 and 9.9E+9)
+_LONG = np.outer([2147483647.0, -2147483648.0, 4294967295.0], [1.0, 0.1, 0.01, 0.001]).round(3).ravel()
+_OVERLOAD = [1e9, -1e9, 9e9, -9e9, 9.9e9, -9.9e9]
+_FULL_SCALE = np.concatenate([_COUNTER, _LONG, _LONG.astype(np.float32).astype(np.float64), _OVERLOAD])
 _NINES = np.array(
     [
         *(float(f"{sign}{'9' * n}") for sign in ("", "-") for n in (4, 5, 6)),

@@ -13,6 +13,7 @@ _SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
 _TAIL, _TAIL_TIMES = 0.995, 5.0  # a spike is so many times what a channel does every two hundred samples
 _MANY_SPIKES = 0.005
+_FAR = 10.0  # times what all the rest reaches: no puff of air, but what a logger writes or a contact that is lost
 
 
 def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
@@ -36,7 +37,8 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     many = count > max(10, _MANY_SPIKES * n)
     if count:
         # air in a draught, a probe at high speed: what comes in all sizes is no spike
-        beyond = _beyond(hit, rows, height, _TAIL_TIMES * _tail(x, _SPIKE * noise))
+        others = _without_far(x, hit, rows, height)
+        beyond = _beyond(hit, rows, height, _TAIL_TIMES * _tail(others, _SPIKE * noise))
         if beyond.any() or not many:
             return beyond, int(beyond.sum()) > max(10, _MANY_SPIKES * n)
     return hit, many
@@ -50,6 +52,19 @@ def _beyond(hit: Bool1D, rows: Int1D, height: Float1D, least: float) -> Bool1D:
     for a, b in zip(*true_runs(hit), strict=True):
         beyond[a:b] = top[a:b].max() > least
     return beyond
+
+
+def _without_far(x: Float1D, hit: Bool1D, rows: Int1D, height: Float1D) -> Float1D:
+    """x without the runs of `hit` that stand out by far more than all other samples reach: what a logger writes tells
+    nothing of what the channel does, and a handful of it would make its own height usual. What comes in all sizes
+    leaves no such gap between the heights. rows, height: shape (k,)."""
+    rest = x[~hit & np.isfinite(x)]
+    reach = float(np.ptp(rest)) if len(rest) else np.inf
+    for one in np.sort(height[hit[rows]]).tolist():
+        if one > _FAR * reach:
+            break
+        reach = max(reach, one)
+    return np.where(_beyond(hit, rows, height, _FAR * reach), np.nan, x)
 
 
 def _stand_out(x: Float1D, noise: float) -> tuple[Int1D, Float1D]:

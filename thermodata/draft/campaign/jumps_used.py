@@ -8,13 +8,13 @@ from thermodata.draft.campaign.orientation import why_idle
 from thermodata.draft.campaign.parts import DraftJump
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.probes.jumps import JumpTest, jump_of
+from thermodata.draft.probes.jumps import JumpTest, jumps_in
 from thermodata.draft.probes.twin_probes import each_its_own
 
 
 def jumps_of(logs: Sequence[RawFile]) -> list[JumpTest]:
     """The jump tests among recordings: those that are called so, and those that are far shorter than the tests."""
-    found = [j for f in logs if (j := jump_of(f)) is not None and (j.named or _short(j, logs))]
+    found = [j for f in logs for j in jumps_in(f) if j.named or _short(j, logs)]
     return each_its_own(found)
 
 

@@ -81,7 +81,8 @@ class LeftOut:
 
 def _why_left_out(one: OneSignal, said: Guess, found: Sequence[OneSignal]) -> str | None:
     """Why a signal is no channel, though it says something by itself; None where it is one."""
-    if said.quantity is None and one.signal.unit is None and _counts_rows(one):
+    # Lutron calls the number of a row its position
+    if said.quantity in (None, "position") and one.signal.unit is None and _counts_rows(one):
         return "numbers the rows of each file"
     if (of := _unit_of(one, found)) is not None:
         return f"holds the unit of '{of.written}', which is taken"

@@ -31,7 +31,10 @@ def wished_name(signal: str, said: Guess) -> str:
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
         last = "_".join(parts[-2:])
-    if len(parts) > 1 and _STATISTIC.fullmatch(last.strip()):  # of which only the name above says what it is of
+    statistic = len(parts) > 1 and _STATISTIC.fullmatch(last.strip()) is not None
+    # 'Last' below '1 s' is a load in German, beside the interval in the head of its file
+    if statistic and not (said.quantity == "load" and parts[-2].strip()[0].isdecimal()):
+        # of which only the name above says what it is of
         last = f"{split_unit(parts[-2])[0]}_{last.strip()}"
     if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
         last = split_unit(parts[-2])[0]

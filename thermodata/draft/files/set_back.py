@@ -20,12 +20,13 @@ _LOOKED_AT = 100_000  # rows, for a period
 @dataclass(frozen=True, slots=True)
 class SetBack:
     """row: of the stream, from 1; from_ns, to_ns: what it told before, and there; in_no_order: whether rows stand in no
-    order at all."""
+    order at all; older: whether all that follows is older than what came before."""
 
     row: int
     from_ns: int
     to_ns: int
     in_no_order: bool = False
+    older: bool = False
 
 
 @dataclass(slots=True)
@@ -70,9 +71,9 @@ class Clock:
         return same >= _REPEATED * again.size
 
     def extent(self) -> tuple[int, int] | None:
-        """The first and the last time where the clock was set ahead by years, once what came before is moved up to it;
-        None where it was not."""
-        if self.leap.row is None:
+        """The first and the last time where the clock was set ahead by years, once what came before is moved up to it,
+        or where a step back may be the seam of a ring buffer; None where there is neither."""
+        if self.leap.row is None and (self.steps.back != 1 or self.set_back() is not None):
             return None
         t = np.concatenate(self.t_ns)
         return find_order(lambda a, b: t[a:b], t.size, resets_allowed=False).extent
@@ -89,7 +90,7 @@ class Clock:
         again = np.flatnonzero(t[keep:] <= high) + keep
         if self._stands_before(again, t):
             return None
-        return SetBack(keep + 1, high, int(t[keep]), self.steps.in_no_order)
+        return SetBack(keep + 1, high, int(t[keep]), self.steps.in_no_order, bool(t[keep:].max() < t[:keep].min()))
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from thermodata.draft.files.on_one_clock import on_one_clock
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.log_in_parts import runs_across
 from thermodata.draft.folder.over_tests import over_tests
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
@@ -202,6 +203,8 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
         parts = over_tests(own, ran, local)
         if parts:
             return replace(group, tests=parts, questions=("each file is of the tests that ran during it?",))
+        if runs_across(own, ran, local):
+            return replace(group, shared=True, tests={}, questions=("one log for many tests, in parts?",))
     spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
     inside = {
         t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]

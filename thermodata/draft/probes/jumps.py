@@ -5,7 +5,7 @@ Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without 
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -28,6 +28,7 @@ _LONGEST_S = 3600.0
 _MOST_STEPS, _LEAST_STEPS = 40, 2
 _TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
 _ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
+_APART = 0.5  # of a dwell, from the last step of one probe to the first of another that moves in turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +69,14 @@ class JumpTest:
 
 
 def jump_of(file: RawFile) -> JumpTest | None:
-    """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with
-    signal None: a person must look."""
+    """The jump test that a file holds, that of the probe that moved most where several moved in turn; or None."""
+    return next(iter(jumps_in(file)), None)
+
+
+def jumps_in(file: RawFile) -> list[JumpTest]:
+    """The jump tests that a file holds: of the probe that moved most, and of each that moved while the others stood, as
+    where the axes were moved in turn. A file whose name says jump and that shows no steps is one with signal None: a
+    person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
     moved: list[Moved] = []
     probes = _probes(file, named)
@@ -81,12 +88,26 @@ def jump_of(file: RawFile) -> JumpTest | None:
             continue
         moved.append(Moved(key, *found))
     if moved:
-        most = max(moved, key=lambda m: m.height)
-        others = tuple(m for m in moved if m is not most and m.height > _ALONG * most.height)
-        return JumpTest(file, most.signal, most.steps, most.dwell_s, named, others=others)
+        leads: list[Moved] = []
+        for one in sorted(moved, key=lambda m: -m.height):
+            if all(_in_turn(one, lead) for lead in leads):
+                leads.append(one)
+        return [_jump(file, lead, moved, named) for lead in leads]
     if named and probes and not stirred and _is_short(file):
-        return JumpTest(file, None, (), 10.0, True)
-    return None
+        return [JumpTest(file, None, (), 10.0, True)]
+    return []
+
+
+def _jump(file: RawFile, lead: Moved, moved: Sequence[Moved], named: bool) -> JumpTest:
+    along = (m for m in moved if m is not lead and not _in_turn(m, lead))
+    others = tuple(m for m in along if m.height > _ALONG * lead.height)
+    return JumpTest(file, lead.signal, lead.steps, lead.dwell_s, named, others=others)
+
+
+def _in_turn(one: Moved, other: Moved) -> bool:
+    """Whether all steps of one probe were before those of another, or behind them."""
+    first, then = sorted((one.steps, other.steps), key=lambda steps: steps[0].t_s)
+    return first[-1].t_s < then[0].t_s - _APART * min(one.dwell_s, other.dwell_s)
 
 
 def is_length(said: Guess) -> bool:

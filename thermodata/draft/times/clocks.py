@@ -14,7 +14,7 @@ from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Float1D, Int1D
-from thermodata.reader.times.step_back import cause_of, in_words, said
+from thermodata.reader.times.step_back import OLDER, cause_of, in_words, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
@@ -96,6 +96,11 @@ def repeats_question(group: Group) -> str | None:
     return None
 
 
+_WAS_SET = (
+    "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the file"
+)
+
+
 def set_back_question(group: Group) -> str | None:
     """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
     follows."""
@@ -113,10 +118,7 @@ def set_back_question(group: Group) -> str | None:
         absolute = file.recording.clock == "absolute"
         of_day = file.recording.of_day_ns
         cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day, file.recording.notes)
-        asked = (
-            "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the "
-            "file"
-        )
+        asked = OLDER if back.older and absolute else _WAS_SET
         by = said(back.from_ns, back.to_ns, absolute, file.local, of_day)
         return (
             f"the clock of {file.path.name} goes back by {by} at row {back.row}, and what follows is lost: "

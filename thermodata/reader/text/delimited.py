@@ -19,6 +19,7 @@ from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.named_values import all_in_columns
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.stamped_lines import all_with_stamp
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import in_one_unit
@@ -63,14 +64,15 @@ def signals(table: Table) -> tuple[Signal, ...]:
     )
     if table.series is not None:
         return table.series.signals(found)
-    told = table.unit
-    if told is None:
-        return found
+    told = (*table.paired, *([table.unit] if table.unit else []))
 
     def with_unit(signal: Signal) -> Signal:
-        if signal.name == told.column:
-            return replace(signal, properties={**signal.properties, UNIT_OF: told.of})
-        return replace(signal, unit=told.unit) if signal.name == told.of else signal
+        for one in told:
+            if signal.name == one.column:
+                return replace(signal, properties={**signal.properties, UNIT_OF: one.of})
+            if signal.name == one.of:
+                return replace(signal, unit=one.unit)
+        return signal
 
     return tuple(map(with_unit, found))
 
@@ -225,6 +227,8 @@ def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     """The rows in chunks of the file, and a loss for each part that does not read."""
     rows = _rows(path, table, source)
     if table.series is None:
+        for one in table.paired:
+            rows = in_one_unit(rows, one, table.name, whole=True)
         yield from rows if table.unit is None else in_one_unit(rows, table.unit, table.name)
         return
     apart = TakenApart(table.series, table.name)
@@ -238,6 +242,8 @@ def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     for chunk in chunks(path, table.sample.encoding):
         if table.named:
             chunk = replace(chunk, data=all_in_columns(chunk.data, table.named))
+        if table.stamped:
+            chunk = replace(chunk, data=all_with_stamp(chunk.data, table.stamped))
         if table.blanks:
             chunk = replace(chunk, data=parted_bytes(chunk.data))
         yield from reader.read(_without_header(chunk, table.layout.first))

@@ -9,6 +9,11 @@ import numpy as np
 
 from thermodata.reader.times.zone import REPEATS
 
+# of a part that ends before what stands above it begins: joined behind that, it may be put after what came later
+OLDER = (
+    "what follows is older than all before it: a ring buffer with a pause? sort the file by its time; another test? "
+    "cut the file there; only where the clock was set back, clock: {resets: allow} joins it"
+)
 _S, _MIN, _H = 10**9, 60 * 10**9, 3600 * 10**9
 _ROW_NS = 10 * _MIN  # from row to row at most, so that the hour shows at which the clock turned
 _REPEATED = re.compile(rf"{REPEATS} (\S+)Z:")

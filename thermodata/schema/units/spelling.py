@@ -10,6 +10,8 @@ import re
 import unicodedata
 from functools import lru_cache
 
+from thermodata.schema.units.in_words import in_words
+
 UNIT_SPELLING: dict[str, str] = {
     "1/min": "rpm",
     "u/min": "rpm",
@@ -49,6 +51,7 @@ UNIT_SPELLING: dict[str, str] = {
     "ºc": "degC",
     "degcelsius": "degC",
     "degreec": "degC",
+    "degreesc": "degC",
     "degreescelsius": "degC",
     "stc": "degC",
     "°cel": "degC",
@@ -58,6 +61,8 @@ UNIT_SPELLING: dict[str, str] = {
     "grad_c": "degC",
     "oc": "degC",
     "degf": "degF",
+    "degreef": "degF",
+    "degreesf": "degF",
     "f": "degF",
     "°f": "degF",
     "fahrenheit": "degF",
@@ -203,13 +208,6 @@ _PER_TURN = re.compile(rf"(?P<length>mm|um|μm|in|inch)/{_TURN}", re.IGNORECASE)
 _FOOT_POUND = re.compile(
     r"(?P<length>ft|in)[-.·*]?lbf?|lbf?[-.·*]?(?P<behind>ft|in)|(?P<kilo>kgf|kp)[.·*]?(?P<metric>m|cm)", re.IGNORECASE
 )
-# LabVIEW and others write units out, in English or German, one or many: 'Micrometers', 'Millimetre', 'Millivolt'
-_PREFIX = {"nano": "n", "micro": "u", "mikro": "u", "milli": "m", "centi": "c", "zenti": "c", "kilo": "k", "mega": "M"}
-_IN_WORDS = re.compile(
-    rf"(?P<prefix>{'|'.join(_PREFIX)})(?:(?P<m>met(?:er|re)[sn]?)|(?P<V>volts?)|(?P<A>amp(?:[eè]re)?s?)|(?P<W>watts?)|"
-    r"(?P<N>newtons?)|(?P<Pa>pascals?)|(?P<K>kelvins?)|(?P<ohm>ohms?)|(?P<rad>radians?))",
-    re.IGNORECASE,
-)
 _GRAD = re.compile(r"(?<![^\W\d_])grad(?![^\W\d_])", re.IGNORECASE)
 # full-width letters, and signs that hold a whole unit (㎜ ㎛ ㎾ ℓ): what keyboards of East Asia write
 _WIDE = re.compile("[\uff01-\uff5e\u3351\u3371-\u33df\u2113\u2103\u2109]")
@@ -250,8 +248,8 @@ def spelled(text: str) -> str | None:
     bare = bare_unit(text)
     if found := _IN_THIS_CASE.get(bare) or UNIT_SPELLING.get(bare.casefold()):
         return found
-    if words := _IN_WORDS.fullmatch(bare):
-        return _PREFIX[words["prefix"].lower()] + next(k for k, v in words.groupdict().items() if v and k != "prefix")
+    if words := in_words(bare):
+        return words
     if turns := _TURNS_PER.fullmatch(bare):
         return f"{'kilo' if turns['kilo'] else ''}turn/{_time(turns['time'])}"
     if turns := _PER_TIME.fullmatch(bare) or _PER_TIME_RAISED.fullmatch(bare):

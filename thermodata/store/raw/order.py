@@ -17,6 +17,8 @@ from thermodata.store.raw.clock_faults import JITTER_NS, MOST_STRAYS, Faults, sh
 
 CHUNK_ROWS = 500_000
 _NEAR, _LONGEST = 256, 65_536  # rows: stretches that lie so near are sorted as one, up to this length
+_LEAST_OF_RING = 4  # rows: of fewer, strays are not told from a seam
+_PERIODS_OF_SEAM = 3.0  # from the last row of a ring buffer to its first one
 Times = Callable[[int, int], Int1D]
 
 
@@ -57,10 +59,42 @@ def find_order(
     times: Times, n: int, *, resets_allowed: bool, sound: Int1D | None = None, disorder_ns: int = JITTER_NS
 ) -> Order:
     """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clock_faults`.
+    The rows of a ring buffer are sorted, whatever is allowed: its clock was not set.
 
     sound: (first, past-the-last) rows that may step back, for they belong among those before, shape (k, 2).
     disorder_ns: in place of the second.
     """
+    order = _looked_at(times, n, resets_allowed=False, sound=sound, disorder_ns=disorder_ns)
+    if order.keep == n:
+        return order
+    if _is_ring(times, n, order):
+        note = f"a ring buffer: its oldest rows stand from row {order.keep + 1} on, and are put before the others"
+        return replace(by_time(times, n), notes=(note,))
+    if resets_allowed:
+        return _looked_at(times, n, resets_allowed=True, sound=sound, disorder_ns=disorder_ns)
+    return order
+
+
+def _is_ring(times: Times, n: int, order: Order) -> bool:
+    """Whether the rows behind a step back are the older ones of a buffer that was written over from its begin on: both
+    stretches are in order, and the last time lies about a period before the first, or is the same, where a scan of
+    several rows is torn. order: of the rows before the step
+    back."""
+    first, many = order.keep, n - order.keep
+    if min(first, many) < _LEAST_OF_RING or len(order.at) or order.shifts[0]:
+        return False
+    older = _looked_at(lambda a, b: times(first + a, first + b), many, resets_allowed=False)
+    if older.keep < many or len(older.at) or older.shifts[0]:
+        return False
+    near = (times(max(0, first - _NEAR), first), times(first, min(n, first + _NEAR)))
+    period = max(float(np.median(steps)) for t in near if len(steps := np.diff(np.unique(t))))
+    return 0 <= order.extent[0] - older.extent[1] <= _PERIODS_OF_SEAM * period
+
+
+def _looked_at(
+    times: Times, n: int, *, resets_allowed: bool, sound: Int1D | None = None, disorder_ns: int = JITTER_NS
+) -> Order:
+    """The order of n rows by the faults of their clock alone; see `find_order`."""
     faults = Faults(resets_allowed, disorder_ns)
     looked = times if sound is None or not len(sound) else _standing(times, sound)
     for first in range(0, n, CHUNK_ROWS):
@@ -95,7 +129,7 @@ def _standing(times: Times, sound: Int1D) -> Times:
 def by_time(times: Times, n: int, *, resets_allowed: bool = False) -> Order:
     """The order of n rows whose times are sound, wherever they stand: all are sorted. Rows a year apart are of a clock
     that was set between them, and never sorted among each other: see `clock_faults`."""
-    order = replace(find_order(times, n, resets_allowed=resets_allowed, disorder_ns=LEAP_NS), trusted=True)
+    order = replace(_looked_at(times, n, resets_allowed=resets_allowed, disorder_ns=LEAP_NS), trusted=True)
     rows = int((order.islands[:, 1] - order.islands[:, 0]).sum())
     notes = (f"{counted(rows, 'row', 'stands', 'stand')} out of order: sorted by their times",) if rows else ()
     return replace(order, notes=(*order.notes, *notes))

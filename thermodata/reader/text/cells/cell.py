@@ -13,7 +13,7 @@ from thermodata.reader.text.cells.time_pattern import is_date_text, is_time_of_d
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature
 TIME_WORD = re.compile(
-    r"^(t|ts|t_s|time_s|[Tt]id|(?i:t_?stamp|epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
+    r"^(t|ts|t_s|time_s|[Tt]id|(?i:t_?stamp|row[ _]?times?|epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
     r"time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
     r"(dat[eu]m?|dato|dátum|data|fecha|дата)( ?[/&+,_-] ?| (und|and|a|y|e|et|i|en|og|och|és|и) | )"
     r"(time|(uhr)?zeit|čas|cas|hora|heure|ora|czas|godzina|tijd|tid|idő|время)|"

@@ -122,7 +122,7 @@ _PARTS_OF_A_SECOND = (
     ),
     (re.compile(rf"(?i)^1/1000 ?{_S}$"), MILLISECOND),
     (
-        re.compile(r"(?i)^(s|sec|seconds?)$"),
+        re.compile(r"(?i)^(s|sec|seconds?|fraction(s|al)?[ _]?(of[ _]a[ _])?(s|secs?|seconds?)?)$"),
         _format("fraction", r"0?[.,](?P<f>\d{1,9})\d*", "0.000...0.999", zone=False),
     ),
 )

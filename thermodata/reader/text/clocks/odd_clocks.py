@@ -8,16 +8,20 @@ from collections import Counter
 from collections.abc import Sequence
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.cell import Cell, is_dated, is_number, mostly
+from thermodata.reader.text.cells.calendar_words import folded, is_worded_date
+from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.time_questions import format_question
 from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.times.days_without_year import is_day_without_year
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day
 _EACH = 0.9  # of the rows, that have a text of their own
+_WEEKDAY_FIRST = re.compile(r"[^\W\d_]{2,10}[.,]{0,2} ?\d{1,4}([-/.])\d{1,2}\1\d{2,4}")  # Mo 04.05.2026
+_DAY_WORDS = frozenset(("tag", "day", "jour", "giorno", "dia", "den", "dzien", "dag", "nap", "data", "messtag"))
 _DASHED = re.compile(r"([01]?\d|2[0-3])-([0-5]\d)-([0-5]\d)")
 _SHAPE = re.compile(r"([01]?\d|2[0-3])\D{1,4}[0-5]\d(\D.*)?")  # 8h05, 08-00-00, 8 Uhr 05
 
@@ -57,6 +61,36 @@ def clock_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError |
         declare={"time": {"column": column, "format": UNKNOWN}},
         meanwhile={"time": {"period": 1.0}},
     )
+
+
+def day_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
+    """What to ask where a time of day alone was found, and another column may tell the day: text under a word for time,
+    or dates with names of months and weekdays. Left out, a pause of days would be one of hours. None where there is
+    none."""
+    place = columns[0]
+    if not mostly((c := seen.column(place)), is_clocked, _EACH, len(c)):
+        return None
+    day = next((i for i in range(len(seen.names)) if i not in columns and _tells_the_day(i, seen)), None)
+    if day is None:
+        return None
+    both = [(r[day], r[place]) for r in seen.rows if r[day] not in ("", None) and r[place] not in ("", None)]
+    together = [f"{str(one).strip()} {str(clock).strip()}" for one, clock in both]
+    otherwise = f", or {{column: {place + 1}}} alone where '{seen.names[day]}' is no day"
+    return format_question((day, *columns), seen, guess_format(together), together[0], otherwise)
+
+
+def _tells_the_day(column: int, seen: FirstRows) -> bool:
+    """Whether the cells of a column are texts that may be days: no numbers, and no dates that are read."""
+    cells = [c.strip() for c in seen.column(column) if isinstance(c, str) and c.strip()]
+    if len(cells) <= _EACH * len(seen.rows) or any(map(_is_read, cells)):
+        return False
+    worded = all(is_worded_date(c) or _WEEKDAY_FIRST.fullmatch(c) for c in set(cells))
+    named = is_time_header(seen.names[column]) or folded(seen.names[column].strip(" .:")) in _DAY_WORDS
+    return worded or (named and all(re.search(r"\d", c) for c in set(cells)))
+
+
+def _is_read(cell: str) -> bool:
+    return is_number(cell) or is_dated(cell) or is_clocked(cell) or is_day_without_year(cell)
 
 
 def _period_question(place: int, day: str, seen: FirstRows) -> QuestionError:

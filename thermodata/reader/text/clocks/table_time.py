@@ -9,7 +9,7 @@ from typing import Any
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.clocks.odd_clocks import clock_question
+from thermodata.reader.text.clocks.odd_clocks import clock_question, day_question
 from thermodata.reader.text.clocks.start_and_end import interval_note
 from thermodata.reader.text.clocks.time_columns import column, find_time, tell_the_hour
 from thermodata.reader.text.clocks.time_questions import (
@@ -150,6 +150,7 @@ def _ask_what_is_open(columns: tuple[int, ...], seen: FirstRows) -> None:
         weeks_question(columns, seen)
         or joined_question(columns, seen)
         or clock_question(columns, seen)
+        or day_question(columns, seen)
         or part_question(columns, seen)
         or _fraction_beside(columns, seen)
     )

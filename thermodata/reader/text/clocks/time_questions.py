@@ -274,8 +274,11 @@ def without_word(cell: Cell) -> Cell:
     return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
 
 
-def format_question(columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str) -> QuestionError:
-    """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
+def format_question(
+    columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str, otherwise: str = ""
+) -> QuestionError:
+    """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed. otherwise:
+    what else may be declared."""
     column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
     asked = (
         f"format of the times, in strptime's letters ('%d-%b-%Y %H:%M:%S'), or period: 10 s? they begin with '{got}'"
@@ -286,7 +289,7 @@ def format_question(columns: tuple[int, ...], seen: FirstRows, form: str | None,
         where=seen.where,
         expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
         got=got,
-        hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}",
+        hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}{otherwise}",
         times=[seen.names[c] for c in columns],
         ask=f"format of the times: is '{got}' {form}?" if form else asked,
         declare=said,

@@ -75,6 +75,9 @@ def _read(
         spanning, said = spanning[: named + 1], texts[at_all[named] + 1 :]
     names = spanning[-1] if spanning else [""] * width
     place = next((i for i in range(len(texts) - 1, -1, -1) if texts[i] is names), None)
+    if units_row is None and place and not any(units) and _are_units_above(texts[place - 1], names):
+        place = units_row = place - 1
+        units = as_units(texts.pop(units_row))
     at = place or 0
     if place is not None and len(texts) < len(rows) and units_row is not None and place >= units_row:
         place += 1
@@ -136,6 +139,13 @@ def _named(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int
             others = [r for r in below if not of_units(r, times)]
             return i if others and all(_names_nothing(r, times) for r in others) else None
     return None
+
+
+def _are_units_above(row: Sequence[str], names: Sequence[str]) -> bool:
+    """Whether a row of units stands above the names that somebody gave to the channels of a logger: one to each."""
+    if any(map(looks_like_unit, filter(None, names))) or any(c and not n for c, n in zip(row, names, strict=False)):
+        return False
+    return 2 * sum(map(bool, row)) > len(names) and of_units(row, _times_among(names))
 
 
 def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Sequence[Sequence[str]]) -> bool:

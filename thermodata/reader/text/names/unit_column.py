@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.signals.header_words import UNIT_WORDS
+from thermodata.reader.signals.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.signals.interleaved import bare_header, words_of
 from thermodata.reader.signals.row_units import UnitColumn, converts_here, in_unit
 from thermodata.reader.signals.unit_words import holds_units, may_be_a_machine
@@ -34,6 +34,29 @@ def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[st
     if not all(converts_here(other, first) for other in others):
         return None
     return UnitColumn(called[0], numbers[0], first, others)
+
+
+def paired_units(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> tuple[UnitColumn, ...]:
+    """Columns of units each of which says by its name of which column of numbers it is: `Ch1_Unit` of `Ch1_Value`. None
+    of one whose cells are no units, or of several kinds. kinds, cells: as of `unit_column`."""
+    numbers = {_stem(n, VALUE_WORDS): n for n, kind in kinds.items() if kind not in (None, "str", "bool")}
+    found: list[UnitColumn] = []
+    for name, kind in kinds.items():
+        stem = _stem(name, UNIT_WORDS)
+        if kind != "str" or not stem or bare_header(name) == stem or stem not in numbers:
+            continue
+        units = _units_in(cells[name])
+        first, *others = units or ("",)
+        if is_unit(first) and first and all(converts_here(other, first) for other in others):
+            found.append(UnitColumn(name, numbers[stem], first, tuple(others)))
+    return tuple(found)
+
+
+def _stem(name: str, words: Collection[str]) -> str:
+    """A header without the word at its end, bare: 'ch1' of 'Ch1_Unit'."""
+    bare = bare_header(name)
+    ends = [w for w in words if bare.endswith(w) and len(w) > 1]
+    return bare.removesuffix(max(ends, key=len)) if ends else bare
 
 
 def unit_column_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> str | None:

@@ -38,10 +38,13 @@ def known_units(row: Sequence[str]) -> list[str | None]:
 
 
 def are_units(cells: Sequence[Cell]) -> bool:
-    """Whether most filled cells of a row are units; of a row that holds what a logger writes among units only, most of
-    the others: one or two channels stand beside as many stamps and alarms."""
+    """Whether most filled cells of a row are units; of a row that holds the alarms that a logger writes among units
+    only, most of the others: one or two channels stand beside as many of these. A row of stamps and numbers of records
+    (TS, RN) is one whatever a program calls its units."""
     texts = [str(c) for c in cells]
-    if any(map(_ALARMS.fullmatch, texts)) or _STAMPS.issubset(texts):
+    if _STAMPS.issubset(texts):
+        return True
+    if any(map(_ALARMS.fullmatch, texts)):
         texts = [c for c in texts if not _NO_UNIT.fullmatch(c)]
     return sum(map(_is_one, texts)) * 2 > len(texts)
 

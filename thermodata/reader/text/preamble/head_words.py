@@ -12,6 +12,8 @@ import re
 from collections.abc import Sequence
 from enum import IntEnum
 
+from thermodata.reader.text.cells.calendar_words import WEEKDAYS
+
 
 class Says(IntEnum):
     """What a label says of its time, the surest last."""
@@ -65,19 +67,6 @@ _FILLING = (
     "absolut z ze do series channel storage ortszeit lokalzeit locale lokale lokaler místní mistni lokalny lokal is "
     "was ist war wurde été ete est"
 )
-WEEKDAYS = (
-    "monday tuesday wednesday thursday friday saturday sunday mon tue tues wed thu thur thurs fri sat sun "
-    "montag dienstag mittwoch donnerstag freitag samstag sonnabend sonntag mo di mi do fr sa so "
-    "lundi mardi mercredi jeudi vendredi samedi dimanche lun mar mer jeu ven sam dim "
-    "lunedi martedi mercoledi giovedi venerdi sabato domenica gio sab dom "
-    "lunes martes miercoles jueves viernes sabado domingo mie jue vie segunda terca quarta quinta sexta feira "
-    "pondeli utery streda ctvrtek patek sobota nedele po ut st ct pa ne "
-    "poniedzialek wtorek sroda czwartek piatek niedziela pon wt sr czw pt sob nd niedz "
-    "maandag dinsdag woensdag donderdag vrijdag zaterdag zondag ma wo vr za zo "
-    "mandag tirsdag onsdag torsdag fredag lordag sondag tisdag tir ons tor fre lor son "
-    "martedì mercoledì giovedì venerdì miércoles sábado mié sáb terça úterý středa čtvrtek pátek neděle środa "
-    "hetfo kedd szerda csutortok pentek szombat vasarnap"
-)  # as people write them, and without diacritics
 _WORDS = {
     **dict.fromkeys(WEEKDAYS.split(), None),
     **dict.fromkeys(_FILLING.split(), None),

@@ -5,33 +5,14 @@ Where anything stands there that is none of these, a text is no such moment: 'mo
 from __future__ import annotations
 
 import re
-import unicodedata
 from dataclasses import dataclass
-from functools import lru_cache
 
+from thermodata.reader.text.cells.calendar_words import MONTH, WEEKDAYS, folded
 from thermodata.reader.text.cells.clock_pattern import HALF
 from thermodata.reader.text.cells.zone_words import OFFSET, WORDS
-from thermodata.reader.text.preamble.head_words import WEEKDAYS
 from thermodata.reader.text.preamble.zone_places import place_in
 from thermodata.reader.text.times.timestamp import CENTURY
 
-_MONTHS = (
-    "january jan januar janner janvier janv gennaio gen enero ene janeiro leden ledna stycznia styczen januari januara",
-    "february feb februar feber fevrier fevr fev febbraio febrero fevereiro unor unora lutego luty februari februara",
-    "march mar marz maerz mrz mars marzo marco brezen brezna marca marzec maart mrt marts marcius",
-    "april apr avril avr aprile abril abr duben dubna kwietnia kwiecien aprila aprilis",
-    "may mai maggio mag mayo maio kveten kvetna maja maj mei majus",
-    "june jun juni juin giugno giu junio junho cerven cervna czerwca czerwiec juna junius",
-    "july jul juli juillet juil luglio lug julio julho cervenec cervence lipca lipiec jula julius",
-    "august aug aout agosto ago srpen srpna sierpnia sierpien augustus augusti augusta augusztus",
-    "september sep sept septembre settembre sett septiembre setiembre setembro zari wrzesnia wrzesien septembra "
-    "szeptember",
-    "october oct oktober okt octobre ottobre ott octubre outubro rijen rijna pazdziernika pazdziernik oktobra",
-    "november nov novembre noviembre novembro listopad listopadu listopada novembra",
-    "december dec dezember dez decembre dicembre dic diciembre dezembro prosinec prosince grudnia grudzien "
-    "desember decembra",
-)
-_MONTH = {word: number for number, words in enumerate(_MONTHS, 1) for word in words.split()}
 # between the parts of a date and a time of day
 _FILLING = (
     "am um den der dem vom ab im le la les a de du d il alle ore del di el las al y dne ve v o w dnia godz godzina on "
@@ -86,7 +67,6 @@ _AT = frozenset(
     ("a", "um", "at", "v", "ve", "alle", "las", "ore", "kl", "om", "o", "as", "ab", "von", "vom", "from", "de", "dalle")
 )
 _LONGEST = 200  # letters that a date is looked for in
-_FOLDED = str.maketrans({"ø": "o", "ł": "l", "æ": "ae", "'": "", "’": ""})
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,13 +89,13 @@ def spoken(text: str) -> Spoken | None:
     zone = _ZONE.search(rest)
     if zone is not None:
         rest = f"{rest[: zone.start()]} {rest[zone.end() :]}"
-    hours = _HOURS_ALONE.search(_folded(rest))
+    hours = _HOURS_ALONE.search(folded(rest))
     lasting = hours is not None and hours["word"] not in _AT
-    day_long = _DAY_LONG.search(_folded(rest))
+    day_long = _DAY_LONG.search(folded(rest))
     clock, timed, rest = _clock_in(rest)
     if clock is not None and day_long is not None and day_long["word"] not in _AT:
         return None  # '24 h' beside a date is more likely how long it took than the midnight behind it
-    left = _LOCAL.sub(" ", _folded(_CJK.sub(" ", rest)))
+    left = _LOCAL.sub(" ", folded(_CJK.sub(" ", rest)))
     whole = all(rest.count(a) == rest.count(b) for a, b in ("()", "[]"))
     if (date is None and clock is None) or not whole or set(re.findall(r"[^\W_]+", left)) - _WORDLESS:
         return None
@@ -138,14 +118,14 @@ def tells_the_hour(text: str) -> bool:
 def with_month(label: str, value: str) -> tuple[str, str]:
     """(label, value) with the name of a month that ends the label before the value: 'Started on March', '2, 2026'."""
     bare, _, word = label.rpartition(" ")
-    return (bare, f"{word} {value}") if bare and _folded(word.strip(".,")) in _MONTH else (label, value)
+    return (bare, f"{word} {value}") if bare and folded(word.strip(".,")) in MONTH else (label, value)
 
 
 def _date_in(text: str) -> tuple[str | None, str]:
     """(the first date of a text, the rest of it)"""
     for known in _SPELLED:
         match = known.search(text)
-        month = _MONTH.get(_folded(match["word"])) if match is not None else None
+        month = MONTH.get(folded(match["word"])) if match is not None else None
         if match is not None and month is not None:
             year = int(match["year"])
             year += 0 if len(match["year"]) == 4 else 2000 if year < CENTURY else 1900
@@ -174,10 +154,3 @@ def _clock_in(text: str) -> tuple[str | None, bool, str]:
             f"{text[: match.start()]} {text[match.end() :]}",
         )
     return None, False, text
-
-
-@lru_cache(maxsize=1024)
-def _folded(text: str) -> str:
-    """A text in small letters without diacritics."""
-    parts = unicodedata.normalize("NFD", text.casefold().translate(_FOLDED))
-    return "".join(c for c in parts if not unicodedata.combining(c))

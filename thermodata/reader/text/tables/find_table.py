@@ -149,9 +149,11 @@ def find_table(
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
         named=whole.named,
+        stamped=whole.stamped,
         begin=begin,
         zone=zone,
         unit=columns.unit,
+        paired=columns.paired,
         units_told=columns.units_told,
         stands=columns.stands,
     )

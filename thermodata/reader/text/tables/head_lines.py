@@ -11,6 +11,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.text.cells import delimiter as delimiters
 from thermodata.reader.text.cells.named_values import in_columns, named_values
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.stamped_lines import stamped_by, with_stamp
 from thermodata.reader.text.file.lines import Sample
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
@@ -43,7 +44,8 @@ def top_of(head: Sequence[str]) -> Sequence[str]:
 class HeadLines:
     """The first lines, and what parts their cells. top: those in which the layout shows; sample: all that was
     sampled of the file. blanks: whether runs of blanks part cells: there are tabs in their place. quoted: whether cells
-    may stand in quotes. named: the names that stand before each value, which are in columns here."""
+    may stand in quotes. named: the names that stand before each value, which are in columns here. stamped: what parts
+    cells of lines before which a terminal wrote its clock, which is the first cell here; '' where none did."""
 
     head: Sequence[str]
     top: Sequence[str]
@@ -52,6 +54,7 @@ class HeadLines:
     blanks: bool
     quoted: bool
     named: tuple[str, ...] = ()
+    stamped: str = ""
 
     def cells(self, line: str) -> list[str]:
         """The cells of a line, without blanks and quotes around them."""
@@ -86,6 +89,13 @@ def head_lines(head: Sequence[str], first: Sample, said: Mapping[str, Any], wher
         first = replace(first, head=tuple(map(each, first.head)), rest=tuple(map(each, first.rest)))
         head = list(map(each, head))
         return HeadLines(head, top_of(head), first, "\t", False, False, named)
+    stamped = "" if said.get("delimiter") else stamped_by((*top, *first.rest))
+    if stamped:
+        with_time = partial(with_stamp, delimiter=stamped)
+        first = replace(first, head=tuple(map(with_time, first.head)), rest=tuple(map(with_time, first.rest)))
+        head = list(map(with_time, head))
+        quoted = any('"' in line for line in (*head, *first.rest))
+        return HeadLines(head, top_of(head), first, stamped, False, quoted, stamped=stamped)
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     delimiter = delimiter or delimiters.find_delimiter(top)
     if delimiter is None:

@@ -3,6 +3,7 @@ micrometres would stand in one channel."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Collection, Sequence
 from itertools import combinations
@@ -19,12 +20,6 @@ _MAY_NAME = re.compile(r"column \d+(?:#\d+)?")  # nobody called it anything
 _LOOKED_AT = 100  # rows whose cells are held to be numbers
 _MOST_NAMES = 200  # that one column may hold
 _SHARED = 0.6  # of the rows: no more times than this, where each is told of several names
-
-
-_HINT = (
-    "with a column of dates and times, and columns called tag and value, the reader cnc takes it apart; else "
-    "pivot it: a column a name"
-)
 
 
 def name_column(names: Sequence[str]) -> int | None:
@@ -67,8 +62,14 @@ def refuse_long(
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + with_dots(said, 4),
-        hint=_HINT,
+        hint=f"declare table: {{series: [{_written(names[tag])}]}}: its rows are taken apart, each name is a signal "
+        "of its own; or, with a column of dates and times, and columns called tag and value, the reader cnc does so",
     )
+
+
+def _written(name: str) -> str:
+    """A name as a list in a campaign file holds it."""
+    return name if re.fullmatch(r"[^\W\d][\w ]*", name) else json.dumps(name, ensure_ascii=False)
 
 
 def _moved(names: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[int, int] | None:

@@ -11,7 +11,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
+from thermodata.reader.text.names.unit_column import paired_units, unit_column, unit_column_note
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.qualities import Qualities, find_qualities
@@ -32,6 +32,7 @@ class Columns:
     decimal: str | None
     decimal_is_told: bool
     unit: UnitColumn | None
+    paired: tuple[UnitColumn, ...]
     units_told: str | None
     stands: frozenset[int]
     notes: tuple[str, ...]
@@ -63,8 +64,11 @@ def look_at_columns(
     decimal = _decimal(said.get("decimal"), numbers, delimiter, where)
     bare = {name: kind for name, kind in values.items() if units[name] is None}
     unit = unit_column(bare, cells_of) if len(groups) == 1 else None
-    if unit and unit.others:  # what is converted is whole no more
-        kinds[layout.names.index(unit.of)] = "float64"
+    paired = paired_units(bare, cells_of) if len(groups) == 1 and unit is None else ()
+    for one in (*paired, *([unit] if unit else [])):
+        if one.others:  # what is converted is whole no more
+            kinds[layout.names.index(one.of)] = "float64"
+    bare = {name: kind for name, kind in bare.items() if not any(name in (one.column, one.of) for one in paired)}
     units_told = unit.note() if unit else unit_column_note(bare, cells_of)
     stands, standing_note = standing_columns(said, layout, groups, kinds, cells_of, qualities.of_values, where)
     notes = (
@@ -73,6 +77,7 @@ def look_at_columns(
         *qualities.notes(own_cells),
         standing_note,
         units_told,
+        *(one.note() for one in paired),
     )
     return Columns(
         kinds=tuple(kinds),
@@ -80,6 +85,7 @@ def look_at_columns(
         decimal=decimal.mark,
         decimal_is_told=decimal.is_told,
         unit=unit,
+        paired=paired,
         units_told=units_told,
         stands=stands,
         notes=tuple(note for note in notes if note),

@@ -83,10 +83,12 @@ class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: the dtype of each
     column, None of one without values; qualities: what columns say of others; blanks: whether any number of them parts
     its cells: lines are looked at, and read, with tabs in their place; named: names that stand before each value of a
-    line, which become columns so; begin: what its times count from, where its head says so; zone: what a line above the
-    rows says of it, and that line; series: how rows of several sensors or hosts are taken apart; unit: the column that
-    holds the one of its numbers; units_told: the note on such a column, of rows that are of no series; stands: columns
-    whose empty cells say that the value before them still stands."""
+    line, which become columns so; stamped: what parts the cells of lines behind the clock of a terminal, '' of others;
+    begin: what its times count from, where its head says so; zone: what a line above the rows says of it, and that
+    line; series: how rows of several sensors or hosts are taken apart; unit: the column that holds the one of its
+    numbers; paired: those that each hold the one of another column, as their names say; units_told: the note on a
+    column of units, of rows that are of no series; stands: columns whose empty cells say that the value before them
+    still stands."""
 
     name: str
     sample: Sample
@@ -102,10 +104,12 @@ class Table:
     notes: tuple[str, ...]
     blanks: bool = False
     named: tuple[str, ...] = ()
+    stamped: str = ""
     begin: Begin | None = None
     zone: tuple[str, str] | None = None
     series: Series | None = None
     unit: UnitColumn | None = None
+    paired: tuple[UnitColumn, ...] = ()
     units_told: str | None = None
     stands: frozenset[int] = frozenset()
 

@@ -22,7 +22,7 @@ def yearless_note(
         cells = [r[i] for r in rows if i < len(r) and not is_empty(r[i])]
         if i == of_day or not is_time_header(name) or unit_of_time(name, unit) is not None:
             continue  # which counts hours
-        if not cells or not all(map(_is_day, cells)):
+        if not cells or not all(map(is_day_without_year, cells)):
             continue
         clock = next((r[of_day].strip() for r in rows if of_day < len(r) and not is_empty(r[of_day])), "08:00:00")
         said = set(_SAID.findall(where))
@@ -35,7 +35,7 @@ def yearless_note(
     return None
 
 
-def _is_day(cell: str) -> bool:
+def is_day_without_year(cell: str) -> bool:
     """Whether a cell is a day and a month in either order, as '0.5' and '12.30' are not."""
     match = _DAY.fullmatch(cell.strip())
     low, high = sorted(map(int, match.groups())) if match else (0, 0)

@@ -7,16 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.cells.calendar_words import letters_of
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.times.zone import NAT
 
-_WORDS = (
-    (re.compile(r"(?i)jan|feb|mar|apr|may|jun|jul|aug|sep|oct|nov|dec"), "%b"),
-    (re.compile(r"(?i)january|february|march|april|june|july|august|september|october|november|december"), "%B"),
-    (re.compile(r"(?i)mon|tue|wed|thu|fri|sat|sun"), "%a"),
-    (re.compile(r"(?i)monday|tuesday|wednesday|thursday|friday|saturday|sunday"), "%A"),
-    (re.compile(r"(?i)[ap]m"), "%p"),
-)
+_HALF = re.compile(r"(?i)[ap]m")
 _JOINED = {8: "%Y%m%d", 12: "%Y%m%d%{hour}%M", 14: "%Y%m%d%{hour}%M%S"}
 _JOINED_CLOCK = {4: "%{hour}%M", 6: "%{hour}%M%S"}
 _ENOUGH, _FEW = 0.9, 40
@@ -42,11 +37,13 @@ def _spellings(cell: str) -> Iterator[str]:
     """What a stamp may be in strptime's letters: day before month where a dot parts them, month before day behind a
     year, else either."""
     parts = re.findall(r"\d+|[^\W\d_]+|[\W_]+", cell)
-    words = [next((letters for known, letters in _WORDS if known.fullmatch(p)), None) for p in parts]
+    words = [
+        letters or ("%p" if _HALF.fullmatch(p) else None) for p, letters in zip(parts, letters_of(parts), strict=True)
+    ]
     numbers = [p for p in parts if p.isdecimal()]
     odd = any(w is None and p.isalpha() and p.casefold() != "t" for p, w in zip(parts, words, strict=True))
     if not numbers or odd or re.search(r"\d\s*[+-]\d{2}:?\d{2}$", cell):
-        return  # a zone, or a month in another language
+        return  # a zone, or a word that is no month
     hour = "I" if "%p" in words else "H"
     joined, year = len(numbers[0]) in _JOINED, any(len(n) == 4 for n in numbers)
     orders = ["md"] if len(numbers[0]) == 4 else ["dm"] if re.match(r"\D*\d+\.", cell) else ["md", "dm"]

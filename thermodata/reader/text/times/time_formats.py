@@ -85,6 +85,9 @@ def find_formats(
     if declared is not None and len(columns) > 1 and len(pieces := declared.split()) in (len(columns), len(runs)):
         each = len(pieces) == len(columns)
         wanted = [" ".join(pieces[k] for k in run) for run in runs] if each else pieces
+    elif declared is not None and len(runs) > 1 and wanted and not forms:
+        joined = [time_cells.joined_cells([columns[i] for i in run]) for run in runs]
+        wanted = _apart(declared.split(" "), joined) or wanted
     for at, run in enumerate(runs):
         k, name = run[0], names[run[0]]
         cells = columns[k] if len(run) == 1 else time_cells.joined_cells([columns[i] for i in run])
@@ -108,6 +111,23 @@ def find_formats(
         forms.append(form if len(run) == 1 else time_cells.read_together(form, [columns[i] for i in run]))
         forms += [PART] * (len(run) - 1)
     return tuple(forms)
+
+
+def _apart(pieces: Sequence[str], columns: Sequence[Sequence[str]]) -> list[str]:
+    """A declared format of several columns ('%d. %b %Y %H:%M:%S') as one of each, by which its cells are read; empty
+    where it cannot be parted so."""
+    few = _spread(columns[0], _FEW)
+    for end in range(1, len(pieces)) if len(columns) > 1 else [len(pieces)]:
+        first = " ".join(pieces[:end])
+        try:
+            reads = share(few, time_pattern.declared_format(first)) > 0.5
+        except FormatError:
+            continue  # a day without its month
+        if reads and len(columns) == 1:
+            return [first]
+        if reads and (rest := _apart(pieces[end:], columns[1:])):
+            return [first, *rest]
+    return []
 
 
 def _further(more: Callable[[int], Sequence[str]], run: Sequence[int]) -> Sequence[str]:

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from thermodata.plugin import Int1D
+from thermodata.reader.text.cells.calendar_words import in_english
 from thermodata.reader.text.cells.clock_pattern import in_24_hours
 from thermodata.reader.text.cells.number import text_array
 from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
@@ -135,7 +136,7 @@ def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
     for cell in {c or "" for c in cells}:
         text, ends = _DAY_ENDS.subn("00", cell.strip())
         try:
-            moment = datetime.strptime(text, form.strptime or "") + timedelta(days=ends)
+            moment = datetime.strptime(*in_english(text, form.strptime or "")) + timedelta(days=ends)
         except (ValueError, re.error):  # a format that names a month twice is no pattern
             known[cell] = NAT
             continue

@@ -11,9 +11,9 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.reader.times.newest_first import Steps
-from thermodata.reader.times.step_back import cause_of, said
+from thermodata.reader.times.step_back import OLDER, cause_of, said
 from thermodata.reader.times.zone import NO_ZONE
-from thermodata.store.raw.order import by_time, find_order, in_order
+from thermodata.store.raw.order import CHUNK_ROWS, by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
 from thermodata.store.tidy.rows.timeline import Timeline
@@ -89,6 +89,8 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
         advice = "rows stand in no order of their times: sort the file by them"
     elif (cause := cause_of(before, at, absolute, local, of_day, line.raws[0][0].notes)) is not None:
         advice = cause
+    elif absolute and _latest(line, keep, n) < _earliest(line, keep):
+        advice = OLDER
     else:
         advice = "split the test there or set clock: {resets: allow}"
     return Loss(
@@ -98,3 +100,11 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
         fraction=(n - keep) / n,
         reason=f"clock goes backwards by {said(before, at, absolute, local, of_day)}; {advice}",
     )
+
+
+def _earliest(line: Timeline, stop: int) -> int:
+    return min(int(line.file_times(a, min(stop, a + CHUNK_ROWS)).min()) for a in range(0, stop, CHUNK_ROWS))
+
+
+def _latest(line: Timeline, start: int, stop: int) -> int:
+    return max(int(line.file_times(a, min(stop, a + CHUNK_ROWS)).max()) for a in range(start, stop, CHUNK_ROWS))
