@@ -31,6 +31,7 @@ FIT = {
     "lost",
     "locked_rmse_um_before",
     "locked_rmse_um_after",
+    "locked_rmse_um_fitted",
 }
 DIAGNOSIS = {
     "model",

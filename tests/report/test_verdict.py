@@ -411,6 +411,42 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
     )
 
 
+@pytest.mark.parametrize(
+    ("scored", "shape", "said"),
+    [
+        ((1.56, 0.777, 0.35), (None, None), "; locked tests 1.56 (0.777 refitted to all open tests) -> 0.350 um"),
+        ((0.78, 0.777, 0.35), (None, None), "; locked tests 0.777 -> 0.350 um"),
+        (
+            (0.747, 2.73, 0.9),
+            (None, None),
+            "; locked tests 0.747 (2.73 refitted to all open tests) -> 0.900 um: with the model as it is fitted it is "
+            "less",
+        ),
+        (
+            (1.56, 0.777, 0.83),
+            (0.574, 0.656),
+            "; locked tests 1.56 (0.777 refitted to all open tests) -> 0.830 um, by their shape 0.574 -> 0.656 um from "
+            "the refitted one on: they get better than with the model as it is fitted, and no better than with the "
+            "refitted one",
+        ),
+        (
+            (1.56, 0.777, 0.83),
+            (0.7, 0.5),
+            "; locked tests get better by their shape where it acts (0.700 -> 0.500 um), which a claim is judged by, "
+            "and as they are scored, from their first samples on, 1.56 (0.777 refitted to all open tests) -> 0.830 um",
+        ),
+    ],
+)
+def test_before_on_locked_tests_is_the_model_that_the_user_has(
+    scored: tuple[float, float, float], shape: tuple[float | None, float | None], said: str
+) -> None:
+    """0.777 of a refit that nobody has got "worse" by a version that leaves half of what the user's model leaves."""
+    fitted, before, after = scored
+    locked = {"locked_rmse_um_fitted": fitted, "locked_rmse_um_before": before, "locked_rmse_um_after": after}
+    shapes = {"locked_shape_um_before": shape[0], "locked_shape_um_after": shape[1]}
+    assert verdict_sentence(found("effect", [claim("screw", **locked, **shapes)])).endswith(said)
+
+
 def test_a_shape_that_falls_far_more_than_the_error_as_scored_is_told() -> None:
     """24 % beside a probability of 99 %: what remains is where the tests start."""
     locked = {"locked_rmse_um_before": 2.34, "locked_rmse_um_after": 1.78}
@@ -586,6 +622,17 @@ def test_locked_errors_are_those_of_all_claims_only_where_all_were_added(data: R
     both = dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun_2"))
     assert {r.word: (r.before, r.after) for r in error_rows(both)}["locked"] == (5.0, 2.0)
     assert "locked" not in {r.word for r in error_rows(dataclasses.replace(both, effects=("air", "screw", "sunny")))}
+
+
+def test_the_page_has_the_model_as_it_is_fitted_before_what_is_claimed(data: ReportData) -> None:
+    asked = found("effect", [claim("screw", locked_rmse_um_fitted=7.0)])
+    added = dataclasses.replace(data, reason=asked, effects=("air", "screw"))
+    (row,) = (r for r in error_rows(added) if r.word == "locked")
+    assert (row.before, row.after) == (7.0, 2.0)
+    assert "before: 5 um refitted to all open tests" in row.notes
+    (row,) = (r for r in error_rows(dataclasses.replace(data, diagnosis=asked, reason=None)) if r.word == "locked")
+    assert (row.before, row.after) == (None, 7.0)
+    assert "5 um refitted to all open tests; 2 um with what is claimed" in row.notes
 
 
 def test_errors_of_claims_on_other_data_or_of_another_fit_are_none_of_the_version(data: ReportData) -> None:

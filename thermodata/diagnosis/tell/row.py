@@ -51,6 +51,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         fit_after=_fit(errors.sse_after, errors, measure.spread),
         locked_rmse_um_before=held.before if held else None,
         locked_rmse_um_after=held.after if held else None,
+        locked_rmse_um_fitted=held.stands if held else None,
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),

@@ -90,8 +90,11 @@ class Candidate(Result):
     rmse_um_after: with it
     fit_before: the same as FIT [%]
     fit_after: with it
-    locked_rmse_um_before: error on the locked tests without it; for a claimed one only
-    locked_rmse_um_after: with it
+    locked_rmse_um_before: error on the locked tests without it, of a refit of the model to all open tests; for a
+        claimed one only
+    locked_rmse_um_after: with it, fitted likewise
+    locked_rmse_um_fitted: of the model as it is fitted, which is the one that the user has; for a claimed one only,
+        null in an answer of an older version
     locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
         they were opened for, over those in which it acts; of what they were opened for and is neither, of the looks
         that say anything the one in which the error falls least, as the reason tells it
@@ -131,6 +134,7 @@ class Candidate(Result):
     fit_after: float | None
     locked_rmse_um_before: float | None = None
     locked_rmse_um_after: float | None = None
+    locked_rmse_um_fitted: float | None = None
     locked_shape_um_before: float | None = None
     locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None
