@@ -25,7 +25,10 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
     figures = f"; on the locked tests{' with all that is claimed' if together else ''} the {error}"
     if held.asked == frozenset():
         all_of_it = "all that is claimed" if together else "it"
-        figures = f"; it acts little in the locked tests, and was not held against them; with {all_of_it} their {error}"
+        figures = (
+            "; it acts little in the locked tests, and was not held against them, but for that they must not get "
+            f"twice as bad; with {all_of_it} their {error}"
+        )
     way_of = _in_one_way(s, s.looked, tests) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:

@@ -73,9 +73,9 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
     all_of = _all_of(claims)
     if claims[0].locked_tests_asked == 0:
         acts = "it hardly acts" if len(claims) == 1 else "they hardly act"
-        of = "its" if len(claims) == 1 else "their"
-        said = f"{acts} in the locked tests (under a fifth of {of} largest), so these were not asked"
-        return f"; {said} ({number(before)} -> {number(after)} um)"
+        of, them = ("its", "it") if len(claims) == 1 else ("their", "them")
+        said = f"{acts} in the locked tests (under a fifth of {of} largest), so these can't bear {them} out"
+        return f"; {said}; they were opened to see that they do not get twice as bad: {on_locked(claims[0])[0]}"
     figures, better = on_locked(claims[0])
     shape = claims[0].locked_shape_um_before, claims[0].locked_shape_um_after
     if after < before and not _shape_says_more(after / before, *shape):

@@ -99,8 +99,9 @@ class Candidate(Result):
         they were opened for, over those in which it acts; of what they were opened for and is neither, of the looks
         that say anything the one in which the error falls least, as the reason tells it
     locked_shape_um_after: with it
-    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
-        where it is not known, or nothing was opened for it
+    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; 0: they
+        were opened only to see that they do not get twice as bad, which is a look as well; null where it is not known,
+        or nothing was opened for it
     beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
         where these are of the user's own model without and with this one; null in an answer of an older version
     as_modelled: whether errors and FITs before and after are beside the effects of the model as it has them, which are
