@@ -122,6 +122,21 @@ def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
     assert "as the model has them" not in near, "half as much again is told"
 
 
+def test_what_refines_the_model_is_told_with_the_names_that_it_cannot_be_told_from() -> None:
+    """The lag of a channel that drives nothing stood for a screw of another one, which the JSON alone had."""
+    twins = ["lag:T_nut", "feed_screw:T_nut", "gain_by:air,conditions.tool.id", "phases:air,heating,cooling"]
+    second = one("lag", refinement=True, equivalent=[*twins, "coolant:T"], rmse_um_before=3.0, rmse_um_after=0.6)
+    apart = "lag (T), which may be coolant, not told from feed_screw (T_nut)"
+    as_it_stands = second.model_copy(update={"as_modelled": True})
+    text = verdict_sentence(found("refine", [as_it_stands], modelled_rmse_um=3.0))
+    assert f"and 0.600 um with {apart}, another mode of them or a cause that they hide" in text
+    assert f"can be refined by {apart}, error on left-out" in verdict_sentence(found("refine", [second]))
+    both = verdict_sentence(found("effect", [claim("screw"), second, one("mode", refinement=True)]))
+    assert both.endswith(f"can be refined by {apart}, and by mode (T)")
+    changed = second.model_copy(update={"effect": "air", "phases": ["heating", "cooling"], "equivalent": twins})
+    assert "not told from" not in verdict_sentence(found("refine", [changed]))
+
+
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.could_hide import may_act_instead
 from thermodata.report.verdict.refined import named
+from thermodata.report.verdict.twins import named_twins
 from thermodata.report.words.numbers import LITTLE, duration, number, percent
 from thermodata.schema.agreed.begins_on import begins_on
 from thermodata.schema.agreed.limits import NOISY, OF_NOTHING
@@ -157,10 +158,11 @@ def offered(found: Diagnosis) -> str:
     if one is None:
         return ""
     instead = may_act_instead(found, but=[one.id])
+    more = f"; or {instead}" if instead else ""
     return (
         f"as the model has its effects, one lag each, it leaves {number(found.modelled_rmse_um)} um on left-out "
-        f"tests, and {number(one.rmse_um_after)} um with {named(one)}, another mode of them or a cause that they hide: "
-        f"add it, thermodata add {found.model[:8]} {one.rank}{f'; or {instead}' if instead else ''}"
+        f"tests, and {number(one.rmse_um_after)} um with {named(one)}{named_twins(one)}, another mode of them or a "
+        f"cause that they hide: add it, thermodata add {found.model[:8]} {one.rank}{more}"
     )
 
 
