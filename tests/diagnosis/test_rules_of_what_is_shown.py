@@ -19,7 +19,7 @@ from thermodata.diagnosis.tell.of_claim import in_spite_of, placeless_limit
 from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.row import alike_both_ways
 from thermodata.diagnosis.tell.told import Told, as_ranked
-from thermodata.diagnosis.tell.why import _of_all
+from thermodata.diagnosis.tell.why import _not_claimed, _of_all
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -580,3 +580,19 @@ def test_what_is_told_as_another_is_not_told_beside_itself() -> None:
     beside = replace(dropped, others=("lag:T_c",))
     given = SimpleNamespace(selection=SimpleNamespace(dropped=(beside,)))
     assert as_told(listed, None, other, given, judgement)[0] is beside
+
+
+def test_that_it_is_too_improbable_is_said_beside_the_rule_that_it_breaks_and_what_locked_tests_say() -> None:
+    one = scored("screw", evidence=20.0, after=0.8, spread=0.9)
+    looked = replace(one, looked=Looked(Foretold(1.0, 0.5, 0.8), None, 0.1))
+    given: dict[str, Any] = {"member": None, "judged": None, "others": (), "of_model": True, "by_name": None}
+    told = Told(looked, one=looked, errors=looked, stated=True, twins=(), against="", held=None, **given)
+    outcome: Any = SimpleNamespace(
+        judgement=Judgement("unknown", (), (), (), ""), measure=measure(), unit="um", tests="tests"
+    )
+    said = _not_claimed(told, outcome)
+    assert said.startswith("its gain differs between tests by 90 %")
+    assert (
+        f"; and causes like it were right in {100 * probability(looked):.0f} % of cases only (limit 65 %); on " in said
+    )
+    assert said.endswith("with a free offset a test, the error falls by 50 % (1.00 -> 0.50 um)")

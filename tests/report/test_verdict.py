@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from thermodata.diagnosis.claims.probability import CLAIMED, PLACELESS_CLAIMED
 from thermodata.report.collected.collect import _reason
 from thermodata.report.collected.data import ReportData
 from thermodata.report.page.error_rows import error_rows
@@ -18,6 +19,7 @@ from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.refined import named
 from thermodata.report.verdict.verdict import explainable, probability, told, verdict_sentence
+from thermodata.schema.agreed.limits import CLAIMS_ASK
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
 from thermodata.schema.answers.missing_heat import Unknown
@@ -45,9 +47,16 @@ def found(verdict: Any, candidates: Sequence[Candidate], **more: Any) -> Diagnos
     return diagnosis().model_copy(update={"verdict": verdict, "candidates": list(candidates), "artefacts": [], **more})
 
 
+def test_what_a_claim_asks_is_what_is_said_of_it() -> None:
+    assert CLAIMS_ASK == (CLAIMED, PLACELESS_CLAIMED)
+
+
 @pytest.mark.parametrize(
     ("share", "text"),
-    [(None, ""), (0.94, "94 %"), (0.9996, "over 99 %"), (1.0, "100 %"), (0.004, "under 1 %"), (0.0, "under 1 %")],
+    [
+        *((None, ""), (0.94, "94 %"), (0.9996, "over 99 %"), (1.0, "100 %"), (0.004, "under 1 %"), (0.0, "under 1 %")),
+        *((0.6453, "64.5 %"), (0.65, "65 %"), (0.6549, "65 %"), (0.4996, "49.96 %")),
+    ],
 )
 def test_a_probability_is_a_share_in_percent_and_never_certain_below_one(share: float | None, text: str) -> None:
     assert probability(share) == text

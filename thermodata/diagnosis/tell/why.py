@@ -89,12 +89,11 @@ def _not_claimed(told: Told, outcome: Outcome) -> str:
         return would_be_a_mode(s.candidate)
     names = [j.scored.candidate.id for j in judgement.chosen]
     beside = is_judged_beside(s, judged, chosen=bool(names))
-    if failed and s.looked is not None and s.looked.saying:
-        return f"{failed[0]}; {on_locked(s.looked)}"
     sure = of_probability(s, told.sure)
     improbable = [sure.fails] if beside and not sure.holds else []
     if failed:
-        return "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
+        said = "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
+        return f"{said}; {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else said
     if improbable:
         return improbable[0] + in_place_of_heats(s, judgement, outcome.unit)
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]

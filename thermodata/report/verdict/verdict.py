@@ -19,11 +19,11 @@ from thermodata.report.verdict.left_over import (
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.verdict.twins import by_name, not_told_from
 from thermodata.report.words.numbers import duration, number, percent
-from thermodata.schema.agreed.limits import PLAUSIBLE
+from thermodata.schema.agreed.limits import CLAIMS_ASK, PLAUSIBLE
 from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
 from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
-from thermodata.schema.words.sentences import listed, with_count
+from thermodata.schema.words.sentences import apart, in_percent, listed, with_count
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
@@ -44,9 +44,13 @@ FAR = 2.0
 
 
 def probability(share: float | None) -> str:
-    """'94 %', and never certain: 'over 99 %'; '' where none is stated."""
+    """'94 %', and never certain: 'over 99 %'; '' where none is stated. What is less than a claim asks never looks like
+    that: '64.5 %'."""
     if share is None:
         return ""
+    under = next((limit for limit in CLAIMS_ASK if share < limit and in_percent(share) == in_percent(limit)), None)
+    if under is not None:
+        return apart(share, under)
     return "under 1 %" if share < 0.01 else percent(share)
 
 
