@@ -470,7 +470,9 @@ def test_what_the_locked_tests_refused_is_likely_it_before_what_heads_the_list()
     ("after", "spread", "said"),
     [
         (0.4, 0.1, []),
-        (1.0, 0.1, ["that the error hardly falls", "that it explains so little"]),
+        (1.0, 0.1, ["that the error does not fall", "that it explains so little"]),
+        (0.998, 0.1, ["that the error hardly falls"]),
+        (0.95, 0.1, ["that the error falls by 5 % only"]),
         (0.7, 1.0, ["that its gain differs"]),
     ],
 )

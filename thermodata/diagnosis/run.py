@@ -16,7 +16,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.locked.copies import copies
-from thermodata.diagnosis.locked.held import as_held, held
+from thermodata.diagnosis.locked.held import as_held, despite, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.locked.seen import claimed, not_seen, of_response, shown_again, told_again
 from thermodata.diagnosis.locked.turned_locked import turned_locked
@@ -186,7 +186,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         put_right=told(put_right),
         note=note_of_response(chosen.channels, model.data.channels),
     )
-    result = held(found, None if shape is None else shape.holds)
+    result = despite(held(found, None if shape is None else shape.holds))
     keep_answer(store, model.identity, question, key, result.model_dump_json())
     return result, False
 
@@ -199,7 +199,7 @@ def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
         "probability": claimed(store, model.identity, known.response).get(known.candidate),
         "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
     }
-    return known.model_copy(update=now)
+    return despite(known.model_copy(update=now))
 
 
 def _locked(model: Loaded, response: FittedResponse, data: Dataset, open_: Sequence[TestData]) -> list[TestData]:

@@ -8,13 +8,13 @@ from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import rules
+from thermodata.diagnosis.weigh.figures import way
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent, listed
 from thermodata.view.grid.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
 _OUTWEIGHED = {
-    "fall": "that the error hardly falls",
     "gain": "that its gain differs",
     "others": "that no other test foretells it",
     "worth": "that it explains so little",
@@ -28,9 +28,16 @@ _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
     """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
     lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
-    said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
+    words = {"fall": f"that the error {_falls(s)}", **_OUTWEIGHED}
+    said = " and ".join(words[name] for name in lifted if name in words)
     evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
     return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
+
+
+def _falls(s: Scored) -> str:
+    """As its figures say: 'does not fall', 'hardly falls', 'falls by 10 % only'."""
+    said = way(s.error_before, s.error_after)
+    return f"{said} by {in_percent(s.drop)} only" if said == "falls" else said
 
 
 def placeless_limit(s: Scored) -> str:
