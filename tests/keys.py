@@ -57,6 +57,7 @@ DIAGNOSIS = {
     "candidates",
     "artefacts",
     "put_right",
+    "made_without",
     "unknown",
     "next_test",
     "response_um",

@@ -146,6 +146,12 @@ def test_what_refines_the_model_is_told_with_the_names_that_it_cannot_be_told_fr
     assert "not told from" not in verdict_sentence(found("refine", [changed]))
 
 
+def test_what_the_model_was_made_without_ends_the_sentence() -> None:
+    note = "made without V03: its probe is turned; mend it in the campaign file"
+    text = verdict_sentence(found("effect", [claim("screw")], made_without=[note]))
+    assert text.endswith("; this version was made without V03: its probe is turned, mend it in the campaign file")
+
+
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (

@@ -35,6 +35,7 @@ from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, note_of_response, phases_of
+from thermodata.modelling.versions.made_without import still_without
 from thermodata.schema.answers.confirmed import Confirmed, TestConfirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store.base.counting import watched
@@ -89,7 +90,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     which most is left."""
     from thermodata.store.catalogue.findings import keep_answer, kept_answer, save_diagnosis
     from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models import find_model, model_chain
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
@@ -103,7 +104,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
             model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends, name=response
         )
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
-    asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version}
+    open_tests = [t.test for t in model.fitted.tests(model.data)]
+    without = still_without([one.result.notes for one in model_chain(store, model.identity)], open_tests)
+    asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version, "made_without": without}
     found = _with_unasked(outcome.diagnosis.model_copy(update=asked_on), model)
     if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))

@@ -90,9 +90,17 @@ def other_heat(one: Candidate) -> str:
 
 
 def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures: every claim, every refinement, and what of the logs was put right
-    before."""
-    return "; ".join(filter(None, [_verdict(found), put_right(found.put_right), without_steps(found)]))
+    """The verdict in one sentence with its figures: every claim, every refinement, what of the logs was put right
+    before, and which tests the model was made without."""
+    return "; ".join(
+        filter(None, [_verdict(found), put_right(found.put_right), without_steps(found), *_made_without(found)])
+    )
+
+
+def _made_without(found: Diagnosis) -> list[str]:
+    """'this version was made without V03: its probe is turned, mend it ...': nothing else tells of a test that no
+    answer sees any more."""
+    return [f"this version was {note.replace('; ', ', ')}" for note in found.made_without]
 
 
 def without_steps(found: Diagnosis) -> str:
