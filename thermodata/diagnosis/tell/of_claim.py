@@ -53,10 +53,7 @@ def placeless_limit(s: Scored) -> str:
 def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
     """Of a cause by its heat of cutting: tests in which it acts, though by their kind nothing is cut in them; else
     ''."""
-    if s.candidate.family != _CUTTING:
-        return ""
-    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
-    names = list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
+    names = _without_a_cut(s, tests)
     if not names:
         return ""
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
@@ -64,6 +61,22 @@ def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
         f"; it acts in {', '.join(names[:_SHOWN])}{more}, where nothing is cut: what heats there is what "
         "the spindle itself loses, in its motor first"
     )
+
+
+def heats_its_motor(s: Scored, tests: Sequence[TestData]) -> bool:
+    """Whether a cause by its heat of cutting acts where nothing is cut, and in no test of cutting: then the same heat
+    in the spindle's motor comes first, whatever reads that."""
+    if not _without_a_cut(s, tests):
+        return False
+    return not any(acts and test.kind == _CUTTING for test, acts in zip(tests, s.acts, strict=True))
+
+
+def _without_a_cut(s: Scored, tests: Sequence[TestData]) -> list[str]:
+    """The tests in which it acts though by their kind nothing is cut: 'speed (spectrum)'; none of another cause."""
+    if s.candidate.family != _CUTTING or not len(s.rows):  # what was not scored acts nowhere
+        return []
+    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
+    return list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
 
 
 def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
