@@ -155,10 +155,10 @@ def _from_to(what: str, some: Sequence[Candidate], before: float | None, after: 
         of = "it" if len(some) == 1 else "them"
         return f"{what} (does not fall, though the evidence speaks for {of}: {figures})"
     acts = "it acts" if len(some) == 1 else "they act"
-    return f"{what} (falls where {acts} only; over all: {figures}{_but_for_one_test(some, before)})"
+    return f"{what} (falls where {acts} only; over all: {figures}{but_for_one_test(some, before)})"
 
 
-def _but_for_one_test(some: Sequence[Candidate], before: float) -> str:
+def but_for_one_test(some: Sequence[Candidate], before: float) -> str:
     """', and 0.85 -> 0.28 um without table, which the others foretell badly': of an effect of the model that acts in
     one test alone the others tell nothing, and what they foretell of that test says nothing of a candidate."""
     parts = some[0].left_out if len(some) == 1 else []
