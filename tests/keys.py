@@ -31,6 +31,7 @@ FIT = {
     "lost",
     "locked_rmse_um_before",
     "locked_rmse_um_after",
+    "locked_rmse_um_fitted",
 }
 DIAGNOSIS = {
     "model",
@@ -56,6 +57,7 @@ DIAGNOSIS = {
     "candidates",
     "artefacts",
     "put_right",
+    "made_without",
     "unknown",
     "next_test",
     "response_um",

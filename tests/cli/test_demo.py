@@ -30,6 +30,7 @@ KEYS = {
     "rmse_um_after",
     "locked_rmse_um_before",
     "locked_rmse_um_after",
+    "locked_rmse_um_fitted",
     "model",
     "store",
     "report",

@@ -412,6 +412,8 @@ def test_what_diagnose_puts_right_confirm_and_add_put_right_too(say: Say, tmp_pa
     scored = {s["test"]: s for s in better["scores"]}
     assert turned not in scored
     assert scored["day1"]["rmse_um"] < 1.0
+    again = say("--store", store, "diagnose", better["model"])
+    assert f"this version was made without {turned}: its probe is turned" in again.out
 
     rows[:, 1] *= -1
     np.savetxt(log, rows, fmt="%.4f", delimiter=",", header=head, comments="")

@@ -13,6 +13,7 @@ import pytest
 import yaml
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.locked.confirm import rmse
 from thermodata.diagnosis.sound import beside_slips, sound
 from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
 from thermodata.effect import effects
@@ -42,6 +43,19 @@ def of_nut(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
 @pytest.fixture(scope="module")
 def of_a_missing_screw() -> Diagnosis:
     return diagnosis(make_data(of_nut), base())
+
+
+def test_the_error_before_on_locked_tests_is_told_of_the_model_as_it_is_fitted_too() -> None:
+    """Fitted to two tests of six it is another model than the refit that a claim is judged beside."""
+    data = make_data(of_nut)
+    spec = base().model_copy(update={"calibrate_on": ["t0", "t1"], "verify_on": ["t2", "t3", "t4", "t5"]})
+    fitted = fit_model(spec, data, uncertainty=False)
+    best = answer(fitted, data, effects(), "m").diagnosis.candidates[0]
+    locked = [t for t in data.tests if t.role == "locked"]
+    assert best.claimed
+    assert best.locked_rmse_um_fitted == pytest.approx(rmse(fitted.responses[0], locked))
+    assert best.locked_rmse_um_fitted != pytest.approx(best.locked_rmse_um_before, rel=0.02)
+    assert "before is the model refitted to all open tests; as it is fitted it leaves" in best.why
 
 
 def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(of_a_missing_screw: Diagnosis) -> None:
@@ -141,7 +155,9 @@ def test_an_open_test_that_stands_there_twice_counts_once_and_is_told(of_a_missi
     [said] = [a for a in twice.artefacts if a.kind == "copy"]
     assert (said.test, "'t2'" in said.why) == ("again", True)
     one, other = of_a_missing_screw.candidates[0], twice.candidates[0]
-    assert (other.id, other.probability, other.why) == (one.id, one.probability, one.why)
+    # the model as it is fitted has the copy twice
+    why = other.why.partition(" (before is the model refitted")[0]
+    assert (other.id, other.probability, why) == (one.id, one.probability, one.why)
 
 
 def test_locked_figures_are_filled_for_the_claim_only(of_a_missing_screw: Diagnosis) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.diagnosis.locked import held as rules
-from thermodata.diagnosis.locked.held import as_held, held
+from thermodata.diagnosis.locked.held import as_held, despite, held
 from thermodata.schema.answers import confirmed as results
 
 
@@ -65,3 +65,21 @@ def test_an_error_that_rises_about_the_mean_is_said() -> None:
 def test_a_kept_answer_that_went_by_the_shape_alone_is_told_as_one_of_today() -> None:
     found = as_held(confirmed((3.02, 4.24, True, None), holds=True))
     assert (found.holds, found.holds_by_shape, found.why) == (False, True, rules.IN_SHAPE_ONLY)
+
+
+@pytest.mark.parametrize(
+    ("holds", "by_shape", "probability", "said"),
+    [
+        (False, False, 0.84, rules.OUTWEIGHED),
+        (False, True, 0.84, rules.BY_SHAPE),
+        (False, False, None, None),
+        (True, True, 0.84, None),
+        (None, None, 0.84, None),
+    ],
+)
+def test_why_a_diagnosis_claims_what_does_not_hold_is_told_by_itself(
+    holds: bool | None, by_shape: bool | None, probability: float | None, said: str | None
+) -> None:
+    """`holds: false` stood in the JSON beside a claim at 84 %, and the reason in the text alone."""
+    result = confirmed(holds=holds, holds_by_shape=by_shape, probability=probability, despite="as it was once")
+    assert despite(result).despite == said

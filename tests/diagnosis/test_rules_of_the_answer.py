@@ -378,8 +378,8 @@ class TestAnswer:
             (
                 (1.0, 1.2),
                 frozenset(),
-                "it acts little in the locked tests, and was not held against them; with it their error goes from 1.00 "
-                "to 1.20 um",
+                "it acts little in the locked tests, and was not held against them, but for that they must not get "
+                "twice as bad; with it their error goes from 1.00 to 1.20 um",
             ),
         ],
     )

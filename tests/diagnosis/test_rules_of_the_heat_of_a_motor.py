@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
-from thermodata.diagnosis.tell.of_claim import also_of_motor, where_nothing_is_cut
+from thermodata.diagnosis.tell.of_claim import also_of_motor, heats_its_motor, where_nothing_is_cut
+from thermodata.diagnosis.tell.row import _unread
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import PlainEffect, a_test, scored
 
@@ -40,6 +45,13 @@ def test_a_power_beside_the_sharper_heat_of_its_motor_may_be_more_of_it(one: Sco
         assert f"{one.candidate.channels[0]} heats the motor too, which is claimed as {other.candidate.id}" in said
 
 
+MOTOR_AT = "spindle.motor"
+
+
+def at(name: str, quantity: str, place: str) -> ChannelInfo:
+    return ChannelInfo(name, quantity, "degC" if quantity == "temperature" else "kW", at=place)
+
+
 KINDS = ("cutting", "mixed", "other", "spindle", "etve", *("mixed",) * 5)
 
 
@@ -60,3 +72,36 @@ def test_what_acts_in_tests_without_a_cut_is_told_not_to_be_of_the_cut(
     said = where_nothing_is_cut(one, tests)
     assert told in said
     assert bool(said) is bool(told)
+
+
+@pytest.mark.parametrize(
+    ("family", "acts", "first"),
+    [
+        ("cutting", (3, 1), True),  # a mixed test may cut or not
+        ("cutting", (3, 0), False),
+        ("cutting", (1, 2), False),
+        ("spindle", (3,), False),
+    ],
+)
+def test_the_motor_comes_first_of_what_acts_where_nothing_is_cut_alone(
+    family: str, acts: tuple[int, ...], first: bool
+) -> None:
+    tests = [replace(a_test(f"t{k}"), kind=kind) for k, kind in enumerate(KINDS)]
+    one = scored(family=family, size=[1.0 if k in acts else 0.0 for k in range(len(tests))])
+    assert heats_its_motor(one, tests) is first
+
+
+@pytest.mark.parametrize(("claimed", "places"), [(False, ["spindle.motor"]), (True, [])])
+def test_a_motor_that_a_twin_reads_is_named_and_one_that_is_claimed_is_not(claimed: bool, places: list[str]) -> None:
+    """'cutting_power or a warming fixture' headed a claim by tests in which nothing is cut."""
+    tests = [replace(a_test(f"t{k}"), kind="spectrum") for k in range(10)]
+    power, motor = scored("cutting_power", family="cutting", channels=("P",)), scored("motor", channels=("T_m",))
+    data: Any = SimpleNamespace(channels={"P": at("P", "power", "spindle"), "T_m": at("T_m", "temperature", MOTOR_AT)})
+    claims = (power, motor) if claimed else (power,)
+    judged = tuple(Judged(one, one, None, ()) for one in claims)
+    told: Any = SimpleNamespace(listed=power, twins=() if claimed else (motor.candidate,))
+    problem = SimpleNamespace(blocks=[SimpleNamespace(test=t) for t in tests])
+    outcome: Any = SimpleNamespace(
+        judgement=Judgement("effect", judged, (), judged, ""), investigation=SimpleNamespace(problem=problem)
+    )
+    assert _unread(told, outcome, data) == places

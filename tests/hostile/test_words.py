@@ -175,6 +175,16 @@ def test_locked_tests_that_a_claim_makes_worse_come_before_the_errors_that_it_ma
     assert ("locked" in text) is told
 
 
+@pytest.mark.parametrize(("fitted", "told"), [(6.0, False), (2.0, True)])
+def test_locked_tests_get_worse_beside_the_model_as_it_is_fitted_not_beside_a_refit(fitted: float, told: bool) -> None:
+    result = FitResult(
+        model="m", name="m", parent=None, campaigns=["c"], response="dZ", parameters={}, checks=[],
+        scores=[score("verification", 0.3)], before=[score("verification", 3.0)],
+        locked_rmse_um_before=1.84, locked_rmse_um_after=5.01, locked_rmse_um_fitted=fitted,
+    )  # fmt: skip
+    assert ("get worse with what the diagnosis claims: 2.00 -> 5.01 um, 2.5 times" in before_after_text(result)) is told
+
+
 def test_of_several_responses_no_figure_stands_in_the_unit_of_another() -> None:
     """Which of them was diagnosed, and in which unit, no result of a fit says."""
     result = FitResult(

@@ -46,6 +46,7 @@ CANDIDATE = {
     "fit_after",
     "locked_rmse_um_before",
     "locked_rmse_um_after",
+    "locked_rmse_um_fitted",
     "locked_shape_um_before",
     "locked_shape_um_after",
     "locked_tests_asked",

@@ -243,7 +243,7 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
 
 def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="several"))
-    locked = {"locked_rmse_um_before": 1.67, "locked_rmse_um_after": 0.53}
+    locked = {"locked_rmse_um_before": 1.67, "locked_rmse_um_after": 0.53, "locked_rmse_um_fitted": 2.1}
     claims = [
         candidate(name, rank=k, claimed=True, **locked)
         for k, name in enumerate(("coolant:coolant_on", "feed_screw:T_nut"), start=1)
@@ -254,6 +254,7 @@ def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(st
     assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
     both = add(store, parent.model, 1, 2, plain=True)
     assert (both.locked_rmse_um_before, both.locked_rmse_um_after) == (1.67, 0.53)
+    assert both.locked_rmse_um_fitted == 2.1
 
 
 def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store, spec: Spec) -> None:

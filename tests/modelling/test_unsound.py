@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.modelling.versions.made_without import still_without
 from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import Model
@@ -69,3 +70,11 @@ def test_sound_logs_change_nothing(model: Model, data: Dataset, found: PutRight 
 
 def test_a_model_keeps_a_test_to_calibrate_on(model: Model, data: Dataset) -> None:
     assert heeding(model, data, PutRight(left_out=keys(data, 0, 1)))[0] is model
+
+
+def test_what_a_version_was_made_without_is_told_until_it_is_back() -> None:
+    old, new = "made without t1: its probe is turned", "made without t1: the clock of nc is off in it"
+    chain = [["no second lag", old], ["made without t2: its probe is turned"], [new]]
+    assert still_without(chain, ["t3"]) == [new, chain[1][0]]
+    assert still_without(chain, ["t1", "t3"]) == [chain[1][0]]
+    assert still_without([[]], []) == []

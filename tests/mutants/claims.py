@@ -431,13 +431,11 @@ MUTANTS = [
         "if False), best)",
         "a lag is claimed for its name",
     ),
-    diagnosis(
-        "unread.py", "return (*_motors(names, channels), *(", "return (*(", "a motor's losses are the cut's alone"
-    ),
+    diagnosis("unread.py", "return (*motors, *(", "return (*(", "a motor's losses are the cut's alone"),
     diagnosis(
         "unread.py",
-        'if not reads(channels, place := f"{one}.{MOTOR}"))',
-        'if (place := f"{one}.{MOTOR}"))',
+        "in motors_of(names, channels) if not reads(channels, place))",
+        "in motors_of(names, channels))",
         "a motor that a sensor reads may be it",
     ),
     diagnosis("of_claim.py", "if acts and test.kind in _NOTHING_IS_CUT)", "if acts)", "the cut acts where it is cut"),

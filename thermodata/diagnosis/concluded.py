@@ -76,7 +76,7 @@ def _confirmed(case: Case, opened: Unlocked) -> Confirmation:
     claims = opened.judgement.claims
     chosen = [c.scored.candidate for c in claims]
     spec, refitted = case.fitted.spec, case.sound.fitted
-    found = confirm(spec, case.index, case.data, chosen, case.tests, opened.locked, refitted)
+    found = confirm(spec, case.index, case.data, chosen, case.tests, opened.locked, refitted, case.response)
     return replace(found, asked=_asked(claims))
 
 

@@ -16,7 +16,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.locked.copies import copies
-from thermodata.diagnosis.locked.held import as_held, held
+from thermodata.diagnosis.locked.held import as_held, despite, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.locked.seen import claimed, not_seen, of_response, shown_again, told_again
 from thermodata.diagnosis.locked.turned_locked import turned_locked
@@ -35,6 +35,7 @@ from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, note_of_response, phases_of
+from thermodata.modelling.versions.made_without import still_without
 from thermodata.schema.answers.confirmed import Confirmed, TestConfirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store.base.counting import watched
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from thermodata.view.grid.dataset import Dataset, TestData
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 87
+RULES_VERSION = 88
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -89,7 +90,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     which most is left."""
     from thermodata.store.catalogue.findings import keep_answer, kept_answer, save_diagnosis
     from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models import find_model, model_chain
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
@@ -103,7 +104,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
             model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends, name=response
         )
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
-    asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version}
+    open_tests = [t.test for t in model.fitted.tests(model.data)]
+    without = still_without([one.result.notes for one in model_chain(store, model.identity)], open_tests)
+    asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version, "made_without": without}
     found = _with_unasked(outcome.diagnosis.model_copy(update=asked_on), model)
     if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))
@@ -186,7 +189,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         put_right=told(put_right),
         note=note_of_response(chosen.channels, model.data.channels),
     )
-    result = held(found, None if shape is None else shape.holds)
+    result = despite(held(found, None if shape is None else shape.holds))
     keep_answer(store, model.identity, question, key, result.model_dump_json())
     return result, False
 
@@ -199,7 +202,7 @@ def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
         "probability": claimed(store, model.identity, known.response).get(known.candidate),
         "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
     }
-    return known.model_copy(update=now)
+    return despite(known.model_copy(update=now))
 
 
 def _locked(model: Loaded, response: FittedResponse, data: Dataset, open_: Sequence[TestData]) -> list[TestData]:

@@ -85,7 +85,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:
         return result
     # the lock was opened for all claims together, on these data: what that gave is told, and nothing is opened again
-    asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in ("before", "after")}
+    told = ("before", "after", "fitted")
+    asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in told}
     return result.model_copy(update=asked)
 
 

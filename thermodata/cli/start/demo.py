@@ -115,6 +115,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         "rmse_um_after": better.after_um,
         "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
         "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
+        "locked_rmse_um_fitted": claimed.locked_rmse_um_fitted if claimed else None,
         "model": better.model,
         "store": str(store.path),
         "report": str(page),
@@ -224,6 +225,7 @@ def _with_claims(step: Step, store: Store, base: FitResult, claims: Sequence[Can
     step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
     from thermodata.modelling.add import add
     from thermodata.modelling.compare.common import on_common
+    from thermodata.report.verdict.candidate_errors import on_locked
 
     better = add(store, base.model, *(c.id for c in claims))
     before, after = (pooled(some, responses=base.responses) for some in on_common([base.scores, better.scores]))
@@ -232,7 +234,8 @@ def _with_claims(step: Step, store: Store, base: FitResult, claims: Sequence[Can
     )
     a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
     if b is not None:
-        step.line(f"locked tests {number(a)} -> {number(b)} um ({change(a, b)})")
+        a = a if claims[0].locked_rmse_um_fitted is None else claims[0].locked_rmse_um_fitted
+        step.line(f"locked tests {on_locked(claims[0])[0]} ({change(a, b)})")
     return _Better(better.model, before, after)
 
 
@@ -261,7 +264,7 @@ def summary_text(result: dict[str, Any]) -> str:
         rows.append(("not told from", ", ".join(result["equivalents"])))
     rows.append(("open tests", pair(result["rmse_um_before"], result["rmse_um_after"])))
     if result["locked_rmse_um_after"] is not None:
-        rows.append(("locked tests", pair(result["locked_rmse_um_before"], result["locked_rmse_um_after"])))
+        rows.append(("locked tests", pair(result["locked_rmse_um_fitted"], result["locked_rmse_um_after"])))
     rows += [
         ("report", result["report"]),
         ("look around", f"thermodata --store {result['store']} tests"),

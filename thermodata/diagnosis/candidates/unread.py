@@ -63,7 +63,8 @@ def unread(
     if all(warms_the_holder(channels[n]) for n in names) or _take_up_power(names, channels):
         places = STANDS_IN_AIR[HOLDER]
         told = Part(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
-        return (*_motors(names, channels), *(() if told else places[:1]))
+        motors = (place for place in motors_of(names, channels) if not reads(channels, place))
+        return (*motors, *(() if told else places[:1]))
     heat = _one_heat(part_of(channels[n].at) for n in names)
     warm = sum(channels[n].quantity == TEMPERATURE for n in names)
     moving = all(is_motion(channels[n].quantity) for n in names)
@@ -124,11 +125,11 @@ def _take_up_power(names: Iterable[str], channels: Mapping[str, Described]) -> b
     return {c.quantity for c in own} == POWER_OF and all(is_spindle(c.at) for c in own)
 
 
-def _motors(names: Collection[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
-    """Of what spindles take up, the motors that no temperature reads."""
+def motors_of(names: Collection[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
+    """The places of the motors of what spindles take up."""
     power = _take_up_power(names, channels)
     spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if power or _cuts(channels[n])}
-    return tuple(place for one in sorted(spindles) if not reads(channels, place := f"{one}.{MOTOR}"))
+    return tuple(f"{one}.{MOTOR}" for one in sorted(spindles))
 
 
 def is_motion(quantity: str) -> bool:

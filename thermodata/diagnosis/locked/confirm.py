@@ -39,12 +39,13 @@ class Confirmation:
     """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
-    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
-    decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
-    beside the model as it stands (`ACTS`). does: how much they do in each, about its mean. most: in the open test in
-    which they do most. implausible: what is said of gains that are larger than anything known, by
-    candidate. fitted: with the candidates, to all open tests.
+    test: one unlucky zero must not hide that the shape fits. All are of fits to all open tests. stands: as scored, of
+    the model as it is fitted to its own tests, which is what somebody has; None where it was not asked. changed: RMS of
+    what the addition changes there. each: (key, error before, error after) of every locked test. shapes: of every one,
+    too. asked: the keys of those that decide, for a claim acts there; None: all. acts: the keys of those in which the
+    candidates themselves act, fitted beside the model as it stands (`ACTS`). does: how much they do in each, about its
+    mean. most: in the open test in which they do most. implausible: what is said of gains that are larger than anything
+    known, by candidate. fitted: with the candidates, to all open tests.
     """
 
     before: float | None
@@ -61,6 +62,7 @@ class Confirmation:
     most: float | None = None
     implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     fitted: FittedResponse | None = None
+    stands: float | None = None
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
@@ -104,10 +106,12 @@ def confirm(
     tests: Sequence[TestData],
     locked: Sequence[TestData],
     base: FittedModel | None = None,
+    stands: FittedResponse | None = None,
 ) -> Confirmation:
     """Fit without and with the candidates, all together, on all open tests, and score both on the locked ones.
 
-    index: of the response among the model's responses. base: the fit without, where it is made.
+    index: of the response among the model's responses. base: the fit without, where it is made. stands: the response as
+    the model is fitted.
     """
     spec = on_all_open(spec, tests, locked)
     base = fit_model(spec, data, uncertainty=False) if base is None else base
@@ -132,6 +136,7 @@ def confirm(
         most=most,
         implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
         fitted=theirs,
+        stands=None if stands is None else rmse(stands, usable),
     )
 
 

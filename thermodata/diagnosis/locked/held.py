@@ -19,6 +19,12 @@ IN_SHAPE_ONLY = (
     "or noise where its zero is taken"
 )
 
+BY_SHAPE = "the diagnosis claims it all the same: it goes by the shape"
+OUTWEIGHED = (
+    "the diagnosis claims it all the same: it weighs what these tests say against the open ones, and asks them where "
+    "the effects of the model may act otherwise, too"
+)
+
 
 def held(result: Confirmed, by_shape: bool | None) -> Confirmed:
     """With `holds`, `holds_by_shape` and `why`. by_shape: of the locked tests in which it acts, a free offset for each;
@@ -35,6 +41,14 @@ def held(result: Confirmed, by_shape: bool | None) -> Confirmed:
         falls = before is None or after is None or after < before
         holds, why = False, FALLS_SHORT if falls else RISES
     return result.model_copy(update={"holds": holds, "holds_by_shape": by_shape, "why": why})
+
+
+def despite(result: Confirmed) -> Confirmed:
+    """With the reason why a diagnosis claims what does not hold, where it does: `probability` is what it claims it
+    with."""
+    against = result.holds is False and result.probability is not None
+    said = (BY_SHAPE if result.holds_by_shape else OUTWEIGHED) if against else None
+    return result.model_copy(update={"despite": said})
 
 
 def as_held(known: Confirmed) -> Confirmed:

@@ -36,14 +36,16 @@ def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, b
 
 def as_told(s: Scored, member: Judged | None, told: Scored, investigation: Investigation, judgement: Judgement) -> Row:
     """What a row says of itself: its own candidate, or, where its errors are told of another that is one equation with
-    it, that other as it stands in its own row, so that figures, rules and reason are of one thing."""
+    it, that other as it stands in its own row, so that figures, rules and reason are of one thing. Where that row is
+    judged beside the candidate itself, the other beside the model."""
     if told.candidate is s.candidate:
         return s, member
     for j in (*judgement.judged, *judgement.heats):
         if j.scored.columns is told.columns:
             return j.scored, j
     dropped = () if investigation.selection is None else investigation.selection.dropped
-    return next((d for d in dropped if d.columns is told.columns), told), None
+    own = (d for d in dropped if d.columns is told.columns and s.candidate.id not in d.others)
+    return next(own, told), None
 
 
 def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:

@@ -3,10 +3,12 @@ each left-out test before and after, and the residual with the contribution over
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.rules import rules, surely
+from thermodata.diagnosis.claims.rules import Rule, rules, surely
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Float1D
@@ -31,9 +33,16 @@ def rungs(scored: Scored, measure: Measure, unit: str, sure: Scored | None = Non
             asked=bool(rule.asked),
             fails=None if rule.holds else rule.fails,
         )
-        for rule in (*rules(scored, measure, unit), surely(sure or scored))
+        for rule in (*rules(scored, measure, unit), of_probability(scored, sure or scored))
         if not (scored.as_modelled and rule.name in ("chance", "probability"))
     ]
+
+
+def of_probability(scored: Scored, sure: Scored) -> Rule:
+    """Whether it is a cause, by the probability that is told of it. sure: whose that is; where it is another of the
+    same equation, what it hangs on there is no figure of this one, and is not said."""
+    rule = surely(sure)
+    return rule if sure.candidate is scored.candidate else replace(rule, fails=rule.fails.partition(": ")[0])
 
 
 def left_out(scored: Scored, problem: Problem) -> list[LeftOut]:

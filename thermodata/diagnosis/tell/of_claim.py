@@ -8,13 +8,13 @@ from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import rules
+from thermodata.diagnosis.weigh.figures import way
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent, listed
 from thermodata.view.grid.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
 _OUTWEIGHED = {
-    "fall": "that the error hardly falls",
     "gain": "that its gain differs",
     "others": "that no other test foretells it",
     "worth": "that it explains so little",
@@ -28,9 +28,16 @@ _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
     """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
     lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
-    said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
+    words = {"fall": f"that the error {_falls(s)}", **_OUTWEIGHED}
+    said = " and ".join(words[name] for name in lifted if name in words)
     evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
     return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
+
+
+def _falls(s: Scored) -> str:
+    """As its figures say: 'does not fall', 'hardly falls', 'falls by 10 % only'."""
+    said = way(s.error_before, s.error_after)
+    return f"{said} by {in_percent(s.drop)} only" if said == "falls" else said
 
 
 def placeless_limit(s: Scored) -> str:
@@ -46,10 +53,7 @@ def placeless_limit(s: Scored) -> str:
 def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
     """Of a cause by its heat of cutting: tests in which it acts, though by their kind nothing is cut in them; else
     ''."""
-    if s.candidate.family != _CUTTING:
-        return ""
-    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
-    names = list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
+    names = _without_a_cut(s, tests)
     if not names:
         return ""
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
@@ -57,6 +61,22 @@ def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
         f"; it acts in {', '.join(names[:_SHOWN])}{more}, where nothing is cut: what heats there is what "
         "the spindle itself loses, in its motor first"
     )
+
+
+def heats_its_motor(s: Scored, tests: Sequence[TestData]) -> bool:
+    """Whether a cause by its heat of cutting acts where nothing is cut, and in no test of cutting: then the same heat
+    in the spindle's motor comes first, whatever reads that."""
+    if not _without_a_cut(s, tests):
+        return False
+    return not any(acts and test.kind == _CUTTING for test, acts in zip(tests, s.acts, strict=True))
+
+
+def _without_a_cut(s: Scored, tests: Sequence[TestData]) -> list[str]:
+    """The tests in which it acts though by their kind nothing is cut: 'speed (spectrum)'; none of another cause."""
+    if s.candidate.family != _CUTTING or not len(s.rows):  # what was not scored acts nowhere
+        return []
+    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
+    return list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
 
 
 def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:

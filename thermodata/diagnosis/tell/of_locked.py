@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, in_words, on_locked
 from thermodata.diagnosis.locked.confirm import Confirmation
-from thermodata.diagnosis.weigh.figures import from_to, way
+from thermodata.diagnosis.weigh.figures import from_to, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent
 
+_SAME = 0.02  # of an error: two that differ by less are not told apart
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
@@ -22,7 +25,10 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
     figures = f"; on the locked tests{' with all that is claimed' if together else ''} the {error}"
     if held.asked == frozenset():
         all_of_it = "all that is claimed" if together else "it"
-        figures = f"; it acts little in the locked tests, and was not held against them; with {all_of_it} their {error}"
+        figures = (
+            "; it acts little in the locked tests, and was not held against them, but for that they must not get "
+            f"twice as bad; with {all_of_it} their {error}"
+        )
     way_of = _in_one_way(s, s.looked, tests) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
@@ -33,7 +39,17 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
         )
     elif way_of:
         figures += " from their first samples on"
-    return figures + way_of
+    return figures + way_of + _as_fitted(held, unit)
+
+
+def _as_fitted(held: Confirmation, unit: str) -> str:
+    """What the model as it is fitted leaves there, where that says otherwise than a refit to all open tests does."""
+    if held.stands is None or held.before is None or math.isclose(held.stands, held.before, rel_tol=_SAME):
+        return ""
+    return (
+        f" (before is the model refitted to all open tests; as it is fitted it leaves {short(held.stands)} {unit} "
+        "there from first samples on)"
+    )
 
 
 def _in_one_way(s: Scored, looked: Looked, tests: str) -> str:

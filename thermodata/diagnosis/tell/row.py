@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.candidates.unread import reads
+from thermodata.diagnosis.candidates.unread import motors_of, reads
 from thermodata.diagnosis.claims.probability import elsewhere, probability
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advised import as_added
 from thermodata.diagnosis.tell.errors_told import rmse
+from thermodata.diagnosis.tell.of_claim import heats_its_motor
 from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.tell.stated import among
 from thermodata.diagnosis.tell.told import Told
@@ -19,7 +20,7 @@ from thermodata.diagnosis.tell.why import why
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.view.grid.dataset import Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 
 def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: bool) -> Candidate:
@@ -30,7 +31,6 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
     heads = first or claimed or among(told.member, judgement.refused)
     refining = among(told.member, judgement.refinements)
     shape = held.on(held.asked) if held else as_added(s) if refining else s.looked.least if s.looked else None
-    named = [*told.twins, *(j.scored.candidate for j in judgement.claims)]
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -51,6 +51,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         fit_after=_fit(errors.sse_after, errors, measure.spread),
         locked_rmse_um_before=held.before if held else None,
         locked_rmse_um_after=held.after if held else None,
+        locked_rmse_um_fitted=held.stands if held else None,
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
@@ -58,11 +59,11 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         beside=[] if told.of_model else list(told.others),
         equivalent=[t.id for t in told.twins],
-        unread=_unread(s, named, data) if heads or told.stated else [],
+        unread=_unread(told, outcome, data) if heads or told.stated else [],
         also_on=dict(s.also_on),
         why=why(told, outcome),
         evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,
-        rungs=ladder.rungs(one, measure, problem.unit, sure=s if told.stated else one),
+        rungs=ladder.rungs(one, measure, problem.unit, sure=told.sure),
         left_out=ladder.left_out(errors, problem),
         courses=ladder.courses(one, problem) if heads or refining else [],
     )
@@ -80,11 +81,20 @@ def alike_both_ways(found: Sequence[Candidate]) -> list[Candidate]:
     return [one.model_copy(update={"equivalent": twins[one.id]}) for one in found]
 
 
-def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[str]:
-    """Places of other parts that it may be; not those that a temperature reads which the answer names beside it."""
-    others = {n for one in named for n in one.channels if n not in s.candidate.channels}
-    beside = {n: channel for n, channel in data.channels.items() if n in others}
-    return [place for place in elsewhere(s) if not reads(beside, place)]
+def _unread(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
+    """Places of other parts that it may be; not those that a temperature reads which the answer names beside it. The
+    motor of a spindle that cuts nothing comes first, unless another claim reads it."""
+    s, claims = told.listed, [j.scored.candidate for j in outcome.judgement.claims]
+
+    def read_by(some: Sequence[CandidateEffect]) -> dict[str, ChannelInfo]:
+        names = {n for one in some for n in one.channels if n not in s.candidate.channels}
+        return {n: channel for n, channel in data.channels.items() if n in names}
+
+    nothing_is_cut = heats_its_motor(s, [b.test for b in outcome.investigation.problem.blocks])
+    motors = motors_of(s.candidate.channels, data.channels) if nothing_is_cut else ()
+    found = [place for place in motors if not reads(read_by(claims), place)]
+    beside = read_by([*told.twins, *claims])
+    return list(dict.fromkeys([*found, *(place for place in elsewhere(s) if not reads(beside, place))]))
 
 
 def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:

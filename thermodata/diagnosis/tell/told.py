@@ -37,6 +37,11 @@ class Told:
     held: Confirmation | None
 
     @property
+    def sure(self) -> Scored:
+        """Of which its probability is told: its own where one is stated, so that a row has one."""
+        return self.listed if self.stated else self.one
+
+    @property
     def by_another(self) -> bool:
         """Whether it is told in place of another that is one equation with it, and never claimed by its own name."""
         return self.one.candidate is not self.listed.candidate

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.refines import by_kind, not_advised
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, on_locked
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, failed_rules, on_locked
 from thermodata.diagnosis.tell.errors_told import errors_of_all
+from thermodata.diagnosis.tell.ladder import of_probability
 from thermodata.diagnosis.tell.of_claim import also_of_motor, in_spite_of, placeless_limit, where_nothing_is_cut
 from thermodata.diagnosis.tell.of_locked import said_by_locked
 from thermodata.diagnosis.tell.of_one_body import in_place_of_heats, only_warms
@@ -88,17 +89,17 @@ def _not_claimed(told: Told, outcome: Outcome) -> str:
         return would_be_a_mode(s.candidate)
     names = [j.scored.candidate.id for j in judgement.chosen]
     beside = is_judged_beside(s, judged, chosen=bool(names))
-    if failed and s.looked is not None and s.looked.saying:
-        return f"{failed[0]}; {on_locked(s.looked)}"
-    improbable = [why for why in [blunt(s)] if why] if beside else []
+    sure = of_probability(s, told.sure)
+    improbable = [sure.fails] if beside and not sure.holds else []
     if failed:
-        return "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
+        said = "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
+        return f"{said}; {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else said
     if improbable:
         return improbable[0] + in_place_of_heats(s, judgement, outcome.unit)
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
     if not beside and all(errors_of_all(s)[1] < errors_of_all(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
-        rules = "the rules" if blunt(s) is None else "all rules but that of the probability"
+        rules = "the rules" if sure.holds else "all rules but that of the probability"
         return f"it keeps {rules} by itself, and {listed(names)} {were} chosen without it"
     if judgement.claims:
         return f"{judgement.claims[0].scored.candidate.id} explains it, or more"

@@ -80,10 +80,12 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
         before, after = c.locked_rmse_um_before, c.locked_rmse_um_after
         if after is not None and before is not None:
             # what is claimed, but not added, is no error of this model yet: its own is the one before
+            own = before if c.locked_rmse_um_fitted is None else c.locked_rmse_um_fitted
+            refitted = "" if own == before else f"{before:.3g} {of.unit} refitted to all open tests"
             if claims:
-                return ErrorRow("locked", before, after, True, "", of.unit, of.response)
-            note = f"{after:.3g} {of.unit} with what is claimed"
-            return ErrorRow("locked", None, before, True, note, of.unit, of.response)
+                return ErrorRow("locked", own, after, True, refitted and f"before: {refitted}", of.unit, of.response)
+            note = "; ".join(filter(None, [refitted, f"{after:.3g} {of.unit} with what is claimed"]))
+            return ErrorRow("locked", None, own, True, note, of.unit, of.response)
     before, after = _of_role(data, "locked")
     return None if after is None else ErrorRow("locked", before, after, True, "", data.unit, _whose(data))
 

@@ -30,13 +30,9 @@ def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
     told = [_confirmed_sentence(result), _rises_in(result), _one_lag(result), put_right(result.put_right)]
     head = "; ".join(filter(None, told))
-    if result.holds is False and result.holds_by_shape and result.probability is not None:
-        head += f". The diagnosis claims it, with {probability(result.probability)}: it goes by the shape"
-    elif result.holds is False and result.probability is not None:
-        head += (
-            f". The diagnosis claims it all the same, with {probability(result.probability)}: it weighs what these "
-            "tests say against the open ones, and asks them where the effects of the model may act otherwise, too"
-        )
+    if result.despite and result.probability is not None:
+        claims, colon, why = result.despite.partition(":")
+        head += f". {claims[0].upper()}{claims[1:]}, with {probability(result.probability)}{colon}{why}"
     rows = [t.model_dump() for t in result.tests]
     columns = [
         ("campaign", "campaign"),

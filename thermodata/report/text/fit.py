@@ -241,13 +241,14 @@ def before_after_text(result: FitResult) -> str:
 def worse_on_locked(result: FitResult) -> str:
     """That the locked tests get worse with what the diagnosis claims, though open ones get better; else ''."""
     before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
-    if before is None or after is None or after <= before * _RISES:
+    own = before if result.locked_rmse_um_fitted is None else result.locked_rmse_um_fitted
+    if before is None or own is None or after is None or after <= own * _RISES:
         return ""
     # of several responses nothing here says which it is of, and in which unit
-    figures = f"{number(before)} -> {number(after)} um, " if len(result.responses) == 1 else ""
+    figures = f"{number(own)} -> {number(after)} um, " if len(result.responses) == 1 else ""
     return (
         "as they are scored, from their first samples on, the locked tests get worse with what the diagnosis claims: "
-        f"{figures}{number(after / before, 2)} times as much, as its answer says, which judges by their shape (each "
+        f"{figures}{number(after / own, 2)} times as much, as its answer says, which judges by their shape (each "
         "about its own mean). The errors below are of tests that it was fitted to or chosen by, "
         "so ask the locked ones (thermodata confirm tells each) before this version is used"
     )

@@ -5,8 +5,10 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
+from thermodata.report.verdict.candidate_errors import but_for_one_test
 from thermodata.report.verdict.could_hide import may_act_instead
 from thermodata.report.verdict.refined import named
+from thermodata.report.verdict.twins import named_twins
 from thermodata.report.words.numbers import LITTLE, duration, number, percent
 from thermodata.schema.agreed.begins_on import begins_on
 from thermodata.schema.agreed.limits import NOISY, OF_NOTHING
@@ -157,10 +159,15 @@ def offered(found: Diagnosis) -> str:
     if one is None:
         return ""
     instead = may_act_instead(found, but=[one.id])
+    more = f"; or {instead}" if instead else ""
+    left, free = found.modelled_rmse_um, found.rmse_um
+    far = left is not None and free is not None and left >= OTHERWISE * free
+    freed = f" ({number(free)} um with these free to act otherwise, as errors of a claim are told)" if far else ""
+    but = but_for_one_test([one], left).removeprefix(", and ") if left is not None else ""
     return (
-        f"as the model has its effects, one lag each, it leaves {number(found.modelled_rmse_um)} um on left-out "
-        f"tests, and {number(one.rmse_um_after)} um with {named(one)}, another mode of them or a cause that they hide: "
-        f"add it, thermodata add {found.model[:8]} {one.rank}{f'; or {instead}' if instead else ''}"
+        f"as the model has its effects, one lag each, it leaves {number(left)} um on left-out tests{freed}, and "
+        f"{number(one.rmse_um_after)} um with {named(one)}{f' ({but})' if but else ''}{named_twins(one)}, another mode "
+        f"of them or a cause that they hide: add it, thermodata add {found.model[:8]} {one.rank}{more}"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors
+from thermodata.report.verdict.twins import named_twins
 from thermodata.report.words.numbers import number
 from thermodata.schema.words.sentences import listed
 
@@ -24,7 +25,10 @@ def worth_adding(one: Candidate) -> bool:
 def can_be_refined(found: Diagnosis) -> str:
     """'what the model has can be refined by mode (T)', of what is worth adding; '' where nothing is."""
     worth = [c for c in found.candidates if c.refinement and worth_adding(c)]
-    return f"what the model has can be refined by {listed([named(c) for c in worth])}" if worth else ""
+    names = [named(c) + named_twins(c) for c in worth]
+    # commas stand within what is told of a name
+    told = ", and by ".join(names) if any(named_twins(c) for c in worth) else listed(names)
+    return f"what the model has can be refined by {told}" if worth else ""
 
 
 def to_add(found: Diagnosis) -> list[list[Candidate]]:

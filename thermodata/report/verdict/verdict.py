@@ -17,12 +17,13 @@ from thermodata.report.verdict.left_over import (
     stays,
 )
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
+from thermodata.report.verdict.twins import by_name, not_told_from
 from thermodata.report.words.numbers import duration, number, percent
-from thermodata.schema.agreed.limits import PLAUSIBLE
+from thermodata.schema.agreed.limits import CLAIMS_ASK, PLAUSIBLE
 from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
 from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
-from thermodata.schema.words.sentences import listed, with_count
+from thermodata.schema.words.sentences import apart, in_percent, listed, with_count
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
@@ -30,9 +31,7 @@ if TYPE_CHECKING:
 
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
-_UNNAMED = ("lag", "control_compensation")  # which say no more than the channels that they read
 _NO_CHANCE, _MUCH = 0.01, 0.3  # a p-value, and a share of the squared error, with which a candidate is seen
-_MOST_TWINS = 2
 _MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
@@ -45,9 +44,13 @@ FAR = 2.0
 
 
 def probability(share: float | None) -> str:
-    """'94 %', and never certain: 'over 99 %'; '' where none is stated."""
+    """'94 %', and never certain: 'over 99 %'; '' where none is stated. What is less than a claim asks never looks like
+    that: '64.5 %'."""
     if share is None:
         return ""
+    under = next((limit for limit in CLAIMS_ASK if share < limit and in_percent(share) == in_percent(limit)), None)
+    if under is not None:
+        return apart(share, under)
     return "under 1 %" if share < 0.01 else percent(share)
 
 
@@ -87,9 +90,17 @@ def other_heat(one: Candidate) -> str:
 
 
 def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures: every claim, every refinement, and what of the logs was put right
-    before."""
-    return "; ".join(filter(None, [_verdict(found), put_right(found.put_right), without_steps(found)]))
+    """The verdict in one sentence with its figures: every claim, every refinement, what of the logs was put right
+    before, and which tests the model was made without."""
+    return "; ".join(
+        filter(None, [_verdict(found), put_right(found.put_right), without_steps(found), *_made_without(found)])
+    )
+
+
+def _made_without(found: Diagnosis) -> list[str]:
+    """'this version was made without V03: its probe is turned, mend it ...': nothing else tells of a test that no
+    answer sees any more."""
+    return [f"this version was {note.replace('; ', ', ')}" for note in found.made_without]
 
 
 def without_steps(found: Diagnosis) -> str:
@@ -213,38 +224,15 @@ def causes(claims: Sequence[Candidate]) -> str:
 
 def _with_probability(one: Candidate) -> str:
     """A twin that is named beside it counts as right in what is known of such probabilities."""
-    twins = _not_told_from(one)
+    twins = not_told_from(one)
     of = " (that it is one of these)" if twins else ""
     sure = "" if one.probability is None else f"probability {probability(one.probability)}{of}"
     return ", ".join(filter(None, [_or_elsewhere(one), sure, twins]))
 
 
 def _or_elsewhere(one: Candidate) -> str:
-    told = named(one) + _by_name(one)
+    told = named(one) + by_name(one)
     return f"{told} or {other_heat(one)}, which {listed(one.drivers)} can't tell from it" if one.unread else told
-
-
-def _by_name(one: Candidate) -> str:
-    """', which may be coolant': the first effect with a name that a lag of the same channels can't be told from."""
-    twins = (twin.partition(":") for twin in one.equivalent) if one.effect in _UNNAMED else ()
-    names = [effect for effect, _, read in twins if effect not in _UNNAMED and set(read.split(",")) == set(one.drivers)]
-    return f", which may be {names[0]}" if names else ""
-
-
-def _not_told_from(one: Candidate) -> str:
-    """'not told from feed_motor (T_mot_X)': of the effects that have a name and read other channels, each once."""
-    found: dict[str, str] = {}
-    for twin in one.equivalent:
-        effect, _, channels = twin.partition(":")
-        if effect not in (*_UNNAMED, one.effect) and not set(channels.split(",")) <= set(one.drivers):
-            found.setdefault(effect, as_named(twin))
-    return f"not told from {listed(list(found.values())[:_MOST_TWINS])}" if found else ""
-
-
-def as_named(candidate: str) -> str:
-    """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
-    effect, _, channels = candidate.partition(":")
-    return f"{effect} ({channels.replace(',', ', ')})" if channels else effect
 
 
 def _unclaimed(found: Diagnosis) -> str:

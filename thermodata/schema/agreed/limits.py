@@ -9,3 +9,5 @@ OF_NOTHING = 0.5
 missing for sure: 13 to 47 % on 25 of 26 such machines (docs/method.md#verdicts)."""
 NOISY = 1.5
 """An error up to so many times the short-term noise is noise."""
+CLAIMS_ASK = (0.65, 0.5)
+"""Probabilities that a claim asks: where places are declared, and where none is (`claims/probability.py`)."""

@@ -90,14 +90,18 @@ class Candidate(Result):
     rmse_um_after: with it
     fit_before: the same as FIT [%]
     fit_after: with it
-    locked_rmse_um_before: error on the locked tests without it; for a claimed one only
-    locked_rmse_um_after: with it
+    locked_rmse_um_before: error on the locked tests without it, of a refit of the model to all open tests; for a
+        claimed one only
+    locked_rmse_um_after: with it, fitted likewise
+    locked_rmse_um_fitted: of the model as it is fitted, which is the one that the user has; for a claimed one only,
+        null in an answer of an older version
     locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
         they were opened for, over those in which it acts; of what they were opened for and is neither, of the looks
         that say anything the one in which the error falls least, as the reason tells it
     locked_shape_um_after: with it
-    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
-        where it is not known, or nothing was opened for it
+    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; 0: they
+        were opened only to see that they do not get twice as bad, which is a look as well; null where it is not known,
+        or nothing was opened for it
     beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
         where these are of the user's own model without and with this one; null in an answer of an older version
     as_modelled: whether errors and FITs before and after are beside the effects of the model as it has them, which are
@@ -131,6 +135,7 @@ class Candidate(Result):
     fit_after: float | None
     locked_rmse_um_before: float | None = None
     locked_rmse_um_after: float | None = None
+    locked_rmse_um_fitted: float | None = None
     locked_shape_um_before: float | None = None
     locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None

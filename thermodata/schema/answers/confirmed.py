@@ -48,6 +48,7 @@ class Confirmed(Result):
     most_um: how much it does in the open test in which it does most; null in an answer of an older version
     looks: how often the locked tests have been opened so far, this look included; the most of any test
     probability: that the stored diagnosis claims it with; null where it does not
+    despite: why that diagnosis claims what does not hold here, in a sentence; null where it claims it not, or it holds
     put_right: what of the logs was put right before, as a diagnosis does; null where nothing was
     note: why it is no cause whatever the tests say; null where nothing forbids it
     """
@@ -67,5 +68,6 @@ class Confirmed(Result):
     most_um: float | None = None
     looks: int
     probability: float | None = None
+    despite: str | None = None
     put_right: PutRight | None = None
     note: str | None = None

@@ -196,6 +196,8 @@ class Diagnosis(Result):
     candidates: best first
     artefacts: faults of the logs
     put_right: those that the answer was found without; null where the logs were taken as they are
+    made_without: a sentence for each test that the model's version, or one that it came from, was made without, for its
+        log was found wrong: nothing is asked of it
     unknown: for the verdict unknown
     next_test: which test to run, or which sensor to add
     response_um: RMS of the response about each test's mean, in its unit
@@ -227,6 +229,7 @@ class Diagnosis(Result):
     candidates: list[Candidate]
     artefacts: list[Artefact]
     put_right: PutRight | None = None
+    made_without: list[str] = []
     unknown: Unknown | None = None
     next_test: str | None = None
     response_um: float | None = None

@@ -114,6 +114,8 @@ class FitResult(Result):
     locked_rmse_um_before: of add: the error on the locked tests without what the parent's diagnosis claims, where all
         of that is added; null where it is not, or none was asked
     locked_rmse_um_after: the same with all that it claims
+    locked_rmse_um_fitted: the same of the parent as it is fitted, for the one before is refitted to all open tests;
+        null in an answer of an older version
     lost: of add and remove: what the parent predicts and this version does not; an error before and one after are
         comparable over the tests of both only
     """
@@ -132,6 +134,7 @@ class FitResult(Result):
     lost: list[LostTest] | None = None
     locked_rmse_um_before: float | None = None
     locked_rmse_um_after: float | None = None
+    locked_rmse_um_fitted: float | None = None
 
     @property
     def responses(self) -> list[str]:
