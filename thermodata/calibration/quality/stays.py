@@ -9,7 +9,7 @@ from thermodata.calibration.quality.value import true_runs
 from thermodata.plugin import Float1D
 
 _LEAST_ROWS = 10  # of a stay
-_BAND = 8.0  # of its noise, between the extremes of the stays
+BAND = 8.0  # of its noise, between the extremes of a plateau of thousands of rows
 _APART, _JUMPS = 0.1, 300.0  # of the channel's span, and times the noise, that nothing is read between it and the rest
 _FLAT = 6.0  # standard errors that the mean of a stay may lie off their level: what is measured drifts
 _QUIET = 0.75  # of the noise of all else, at most: there a probe measures nothing
@@ -42,9 +42,9 @@ def _at_top(x: Float1D) -> tuple[float, float, int] | None:
     top = ordered[wide[-1] + 1 :]
     level = float(np.median(top))
     noise = _scatter(top)
-    if noise <= _EXACT * abs(level) or noise * _JUMPS >= apart[wide[-1]] or top[-1] > level + _BAND * noise:
+    if noise <= _EXACT * abs(level) or noise * _JUMPS >= apart[wide[-1]] or top[-1] > level + BAND * noise:
         return None
-    at = x >= level - _BAND * noise
+    at = x >= level - BAND * noise
     starts, stops = true_runs(at)
     long = stops - starts >= _LEAST_ROWS
     n = int(long.sum())
