@@ -69,11 +69,15 @@ def test_what_is_flagged_at_an_end_that_other_tests_show() -> None:
     assert not no_value[:390].any()
 
 
-NOISY = replace(FINE, low=-91.8, low_n=1, high=44.0, high_n=1, plateau=(-89.9, 0.5, -1))
+NOISY = replace(FINE, low=-91.8, low_n=1, high=44.0, high_n=1, plateau=(-89.9, 0.5, -1, 2))
 
 
 def test_two_tests_that_stand_on_one_level_within_their_noise_tell_an_end() -> None:
-    readings = {("day1", "dZ"): NOISY, ("day2", "dZ"): replace(NOISY, plateau=(-90.1, 0.5, -1)), ("day3", "dZ"): SOUND}
+    readings = {
+        ("day1", "dZ"): NOISY,
+        ("day2", "dZ"): replace(NOISY, plateau=(-90.1, 0.5, -1, 2)),
+        ("day3", "dZ"): SOUND,
+    }
     found = ends_of_ranges(readings)
     assert set(found) == {("day1", "dZ"), ("day2", "dZ")}
     assert found["day1", "dZ"] == (End(-90.1, 4.0), None)
@@ -83,13 +87,19 @@ def test_two_tests_that_stand_on_one_level_within_their_noise_tell_an_end() -> N
     "other",
     [
         SOUND,  # one test alone
-        replace(NOISY, plateau=(-89.6, 0.5, -1)),  # lies elsewhere by more than half the noise: a shift by the speed
-        replace(NOISY, plateau=(-89.9, 0.5, 1)),  # another end
+        replace(NOISY, plateau=(-89.6, 0.5, -1, 2)),  # lies elsewhere by more than half the noise: a shift by the speed
+        replace(NOISY, plateau=(-89.9, 0.5, 1, 2)),  # another end
         replace(NOISY, low=-99.0),  # goes beyond
     ],
 )
 def test_plateaus_that_differ_are_no_end(other: Reading) -> None:
     assert ends_of_ranges({("day1", "dZ"): NOISY, ("day2", "dZ"): other}) == {}
+
+
+@pytest.mark.parametrize(("times", "told"), [(4, True), (3, False)])
+def test_one_test_that_comes_to_one_level_again_and_again_tells_an_end(times: int, told: bool) -> None:
+    readings = {("day1", "dZ"): replace(NOISY, plateau=(-89.9, 0.5, -1, times)), ("day2", "dZ"): SOUND}
+    assert ends_of_ranges(readings) == ({("day1", "dZ"): (End(-89.9, 4.0), None)} if told else {})
 
 
 def test_what_is_flagged_at_an_end_in_noise() -> None:
@@ -107,4 +117,4 @@ def test_what_is_flagged_at_an_end_in_noise() -> None:
     saturated = (flags["dZ"] & np.uint16(Flag.SATURATED)) != 0
     assert saturated[course < -120.0].all()
     assert not saturated[course > -117.0].any()
-    assert any("lower limit -1" in e.detail and "as in other tests" in e.detail for e in events)
+    assert any("lower limit -1" in e.detail and "again and again" in e.detail for e in events)

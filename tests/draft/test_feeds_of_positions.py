@@ -78,3 +78,11 @@ def test_each_axis_has_one(tmp_path: Path) -> None:
     columns = {"X pos [mm]": TO_AND_FRO, "X pos set [mm]": TO_AND_FRO, "Z pos [mm]": TO_AND_FRO / 2}
     found = _derived(tmp_path, columns)
     assert [(v.name, v.derive) for v in found] == [("v_x", "rate(X_pos)"), ("v_z", "rate(Z_pos)")]
+
+
+def test_a_feed_of_no_one_axis_is_named_as_that_of_the_path(tmp_path: Path) -> None:
+    (v,) = _derived(tmp_path, {"X pos [mm]": TO_AND_FRO, "path feed [mm/min]": np.abs(TO_AND_FRO)})
+    assert (
+        v.why
+        == "no feed of X is logged (path_feed may be that of the path of all axes); it is the rate of its position"
+    )

@@ -109,9 +109,8 @@ def test_a_first_model_of_the_sensors_is_drafted_and_loads(name: str, tmp_path: 
     assert "ambient_frame" in {e.effect for e in model.effects}
 
 
-@pytest.mark.parametrize("mid", ["hall", None])
-def test_a_first_model_reads_the_air_of_the_hall_before_that_above(mid: str | None) -> None:
-    places = {"T_top": "hall.top", "T_air": mid or "hall.bottom"}
+def _effects_of(places: dict[str, str]) -> str:
+    """The first model's text. places: of temperatures, beside a displacement along Z."""
     channels: dict[str, Any] = {n: {"quantity": "temperature", "unit": "degC", "at": at} for n, at in places.items()}
     channels["dZ"] = {"quantity": "displacement", "unit": "um", "axis": "Z", "at": "tcp", "relative_to": "table"}
     channels = {n: {"source": "s", "signal": n, **c} for n, c in channels.items()}
@@ -125,8 +124,23 @@ def test_a_first_model_reads_the_air_of_the_hall_before_that_above(mid: str | No
             "tests": [{"id": "t", "kind": "etve", "role": "calibration"}],
         }
     )
-    text = model_text_of(campaign) or ""
+    return model_text_of(campaign) or ""
+
+
+@pytest.mark.parametrize("mid", ["hall", None])
+def test_a_first_model_reads_the_air_of_the_hall_before_that_above(mid: str | None) -> None:
+    text = _effects_of({"T_top": "hall.top", "T_air": mid or "hall.bottom"})
     assert f"ambient_frame, drivers: {{temperature: {'T_air' if mid else 'T_top'}}}" in text
+
+
+@pytest.mark.parametrize(
+    ("bearing", "taken", "other"), [("table.bearing", "T2", "T1"), ("table.pallet", "T1", "T2"), ("table", "T1", "T2")]
+)
+def test_a_first_model_reads_the_part_that_the_effect_is_called_after(bearing: str, taken: str, other: str) -> None:
+    """A drive of the table before its bearing, in the order of the file."""
+    text = _effects_of({"T1": "table.motor", "T2": bearing})
+    assert f"table_bearing, drivers: {{temperature: {taken}}}" in text
+    assert f"; or by {other}" in text
 
 
 def test_the_drafted_model_fits_once_roles_are_given(tmp_path: Path, say: Say) -> None:

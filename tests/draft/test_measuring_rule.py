@@ -94,3 +94,36 @@ def test_a_machine_at_rest_beside_a_rail_has_its_rule(tmp_path: Path, say: Say) 
     text(tmp_path / "ETVE.csv", ["t [s]", "Z [um]", "pos Z [mm]", "T nut Z [degC]"], columns, mark=",")
     say("init", tmp_path)
     assert str(load_campaign(tmp_path / "campaign.yaml").tests[0].measuring).startswith("abs(pos_Z - 0) < ")
+
+
+def two_logs(folder: Path, *, late_s: int = 0) -> None:
+    """Probes at 10 V with their converter's noise while axes feed or the table turns; a control logs these, an hour
+    ahead by its local time. late_s: by which its clock is off besides."""
+    rng = np.random.default_rng(6)
+    for test, fed in (("X40", "X"), ("mix", "XYB")):
+        n = 1440
+        cycle = np.arange(n) // 120
+        here = np.arange(n) % 120 < 24
+        volts = np.where(here, 4.5 + np.arange(n) / 9000 + rng.normal(0, 0.003, n), 10 + rng.normal(0, 0.0008, n))
+        times = np.datetime64("2026-03-04T06:25:00") + np.arange(n) * np.timedelta64(5, "s")
+        columns = [[f"{t}Z" for t in times], numbers(volts, 4), numbers(21 + np.arange(n) / 900, 2)]
+        text(folder / "daq" / f"{test}.csv", ["time", "Probe X1 [V]", "Bed [degC]"], columns, mark=",")
+        there = times[::2] + np.timedelta64(3600 + late_s, "s")
+        moves = {axis: (~here & (cycle % len(fed) == k))[::2] for k, axis in enumerate(fed)}
+        none = np.zeros(n // 2, dtype=bool)
+        driven = [numbers(np.where(moves.get(axis, none), 8000, 0), 0) for axis in "XYB"]
+        columns = [[str(t).replace("T", " ") for t in there], *driven]
+        head = ["time", "feed X [mm/min]", "feed Y [mm/min]", "speed table B [1/min]"]
+        text(folder / "nc" / f"{test}.csv", head, columns, mark=",")
+
+
+@pytest.mark.parametrize(("late_s", "ruled"), [(0, True), (60, False)])
+def test_feeds_in_the_log_of_another_source_are_a_rule(late_s: int, ruled: bool, tmp_path: Path, say: Say) -> None:
+    """All that move while the probe stands at its end, be it in its converter's noise."""
+    two_logs(tmp_path, late_s=late_s)
+    say("init", tmp_path)
+    campaign = load_campaign(tmp_path / "campaign.yaml")
+    rules = {t.id: t.measuring for t in campaign.tests}
+    names = [c for c in campaign.channels if c.startswith(("feed", "speed"))]
+    expected = {"X40": "feed_X == 0", "mix": " and ".join(f"{n} == 0" for n in names)}
+    assert rules == (expected if ruled else dict.fromkeys(expected))

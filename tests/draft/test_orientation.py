@@ -150,3 +150,21 @@ def test_a_jump_test_that_moves_the_probes_of_two_axes_is_of_both(
     asked = "; ".join(other.said.questions)
     assert ("did the axis Z move in jump.csv? 'Probe Y [V]' moved at the same time" in asked) is both
     assert ("calibration? a jump test" in asked) is not both
+
+
+@pytest.mark.parametrize("name", ["jump", "jump_X"])
+@pytest.mark.parametrize("height", [1.7, -1.7, 0.5])
+def test_two_probes_along_one_axis_that_a_jump_test_moves_have_it_both(
+    tmp_path: Path, name: str, height: float
+) -> None:
+    """height: of the second one, which looks the other way, or is moved by too little to be it."""
+    still = [5 + i / 10_000 for i in range(3000)]
+    for path, first, second in (("S3000", still, still), (name, staircase(2.0), staircase(height))):
+        beside(tmp_path / "lab" / f"{path}.csv", first, second)
+        log = tmp_path / "lab" / f"{path}.csv"
+        log.write_text(log.read_text().replace("Probe Y", "Probe X1").replace("Probe Z", "Probe X2"))
+    made = draft_files(tmp_path / "lab").draft
+    both = abs(height) > 1
+    assert [(j.signal, j.axis) for j in made.jumps] == [("Probe X1 [V]", "X"), ("Probe X2 [V]", "X")][: 1 + both]
+    assert [c.calibration for c in made.channels if c.name == "Probe_X2"] == ["jump_Probe_X2" if both else None]
+    assert [j.question.endswith("V; the same as for 'Probe X1 [V]'") for j in made.jumps] == [False, True][: 1 + both]

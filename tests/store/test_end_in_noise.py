@@ -1,4 +1,5 @@
-"""A probe at the end of its range with its converter's noise, for a part of two tests: flagged at ingest."""
+"""A probe at the end of its range with its converter's noise, for a part of two tests or again and again in one:
+flagged at ingest."""
 
 from __future__ import annotations
 
@@ -52,4 +53,24 @@ def test_two_tests_that_stand_on_one_extreme_in_noise(
     assert not flagged or saturated[at_end].mean() > 0.99
     assert saturated.any() is np.bool_(flagged)
     assert not saturated[~at_end].any()
-    assert any("as in other tests" in d for d in details) is flagged
+    assert any("again and again" in d for d in details) is flagged
+
+
+@pytest.mark.parametrize(("noise", "flagged"), [(0.04, True), (0.2, False)])
+def test_one_test_whose_probe_is_out_of_reach_between_measurements(
+    store: Store, tmp_path: Path, noise: float, flagged: bool
+) -> None:
+    """noise: of the converter [um], beside 0.2 um of the probe."""
+    path = write_campaign(tmp_path / "lab", CAMPAIGN, logs=False)
+    t_ns = START_NS + (T * 1e9).astype(np.int64)
+    here = np.arange(len(T)) % 120 < 24
+    beyond = 250.0 + np.random.default_rng(9).normal(0, noise, len(T))
+    cycles = np.round(np.where(here, warms(3, 30.0, -80.0), beyond), 3)
+    for k, (test, x) in enumerate(zip("ab", (cycles, warms(4, 40.0, -80.0)), strict=True)):
+        write_log(path.parent / f"raw/{test}.npz", {"main": {"t_ns": t_ns + k * 86_400 * 10**9, "dZ": x}})
+    ingest(store, path)
+    with store.reader() as con:
+        rows = con.execute("select test, flag from sample where channel = 'dZ' order by test, t").fetchall()
+    saturated = [[(f & int(Flag.SATURATED)) != 0 for t, f in rows if t == test] for test in "ab"]
+    assert saturated[0] == (~here if flagged else np.zeros(len(T), dtype=bool)).tolist()
+    assert not any(saturated[1])

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.calibration.quality.range import ends_of_ranges
 from thermodata.calibration.quality.still import Reading
-from thermodata.store.tidy.flags.between import _more
+from thermodata.store.tidy.flags.readings import reading_with
 from thermodata.store.tidy.values.chunk import Column
 
 LIMIT = 30.125
@@ -22,7 +22,7 @@ def _read(seed: int, at_limit: int, repeated: int) -> Reading:
     x[1000 : 1000 + at_limit] = LIMIT
     logged = np.repeat(x, repeated)
     nobody: Any = None
-    return _more(None, Column(nobody, logged, np.zeros(len(logged), np.uint16)), np.arange(len(logged)) * 1.0)
+    return reading_with(None, Column(nobody, logged, np.zeros(len(logged), np.uint16)), np.arange(len(logged)) * 1.0)
 
 
 @pytest.mark.parametrize("repeated", [1, 12, 30])

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality.still import Reading
+from thermodata.calibration.quality.stays import BAND
+from thermodata.calibration.quality.still import Reading, Shown
 from thermodata.plugin import Float1D
 
 _LEAST_AT = 10  # readings of a test at its extreme
 _LEAST_TESTS = 2
+_LEAST_TIMES, LONG_TIMES = 4, 2  # that all tests stand on one level in noise, and what a stay of _LEAST_S counts
 _LEAST_ROWS, _LEAST_S = 100, 1800.0  # of a plateau
-_BAND = 8.0  # of its noise, between the extremes of a plateau of thousands of rows
 _FLAT = 6.0  # standard errors that the means of its eighths differ by
 _CAME = 10.0, 20.0  # times the noise: the last two distances from its level that it is timed between
 _SHORTLY = 0.1  # of a plateau, in which it came from one to the other
@@ -38,9 +39,9 @@ Limits = tuple[End | None, End | None]  # lower and upper; None where none is kn
 def ends_of_ranges(readings: Mapping[tuple[str, str], Reading]) -> dict[tuple[str, str], Limits]:
     """(test, channel) -> the limits of its range that the test comes to. readings: by test and channel.
 
-    A fine and noisy reading comes to its extreme once. Where two tests stand on the same one, to the last digit, or
-    within the noise of a converter, it is where the sensor ends. A rest at zero is none, nor is what only a channel
-    shows that stands throughout.
+    A fine and noisy reading comes to its extreme once. Where two tests stand on the same one, to the last digit or
+    within the noise of a converter, or one jumps there again and again, it is where the sensor ends. A rest at zero is
+    none, nor is what only a channel shows that stands throughout.
     """
     found: dict[tuple[str, str], Limits] = {}
     for channel in dict.fromkeys(c for _, c in readings):
@@ -76,14 +77,14 @@ def _end(readings: Mapping[str, Reading], side: int) -> End | None:
     return _end_in_noise([r.plateau for r in readings.values() if r.plateau and r.plateau[2] == side], end)
 
 
-def _end_in_noise(plateaus: Sequence[tuple[float, float, int]], furthest: float) -> End | None:
-    """The level that enough tests stand on within the noise, beyond which none goes. plateaus: see `Reading`;
+def _end_in_noise(plateaus: Sequence[Shown], furthest: float) -> End | None:
+    """The level that tests stand on often enough within the noise, beyond which none goes. plateaus: see `Reading`;
     furthest: of all tests."""
     if not plateaus:
         return None
-    level, noise, _ = min(plateaus, key=lambda p: abs(p[0] - furthest))
-    same = [p for p in plateaus if abs(p[0] - level) <= _SAME * noise]
-    return End(level, _BAND * noise) if len(same) >= _LEAST_TESTS and abs(level - furthest) <= _BAND * noise else None
+    level, noise, *_ = min(plateaus, key=lambda p: abs(p[0] - furthest))
+    times = sum(p[3] for p in plateaus if abs(p[0] - level) <= _SAME * noise)
+    return End(level, BAND * noise) if times >= _LEAST_TIMES and abs(level - furthest) <= BAND * noise else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +113,7 @@ def plateau_at_extreme(t_s: Float1D, x: Float1D) -> Plateau | None:
 
 def _plateau(t_s: Float1D, x: Float1D, noise: float, side: int) -> Plateau | None:
     """The longest one at the highest readings of x."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], (x >= x.max() - _BAND * noise).astype(np.int8), [0]))))
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], (x >= x.max() - BAND * noise).astype(np.int8), [0]))))
     start, stop = max(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True), key=lambda run: run[1] - run[0])
     n = stop - start
     if n < _LEAST_ROWS or t_s[stop - 1] - t_s[start] < _LEAST_S:

@@ -100,7 +100,7 @@ def _at_ends_of_other_tests(seen: Marked) -> Bool1D:
             here = (np.abs(seen.x - end.level) <= end.within) & ~seen.told
         at_end |= here
         if here.any():
-            seen.mark(Flag.SATURATED, here, f"{side} limit {end.level:.6g}, as in other tests: {SAY_RANGE}")
+            seen.mark(Flag.SATURATED, here, f"{side} limit {end.level:.6g}, again and again: {SAY_RANGE}")
     return at_end
 
 

@@ -13,6 +13,7 @@ _LEAST_MOVING = 200  # differences, or a test does not tell how a channel reads
 _LEAST_STOOD_S = 60.0
 _NOISY, _SELDOM = 0.2, 0.2  # least share of turns, most of equal neighbours by chance
 _COARSER = 3.0  # than usual: it was logged otherwise
+Shown = tuple[float, float, int, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +21,7 @@ class Reading:
     """How a channel read in a test, as in `RunStats`. moving: differences that it rests on. stood_s: the longest
     stretch of exactly one value [s]. low, high: its extremes, None where it has no value; low_n, high_n: readings
     that stand there, each one however often it is logged. plateau: (level, noise, -1 for its lowest or 1 for its
-    highest) where it stands on its extreme within its noise."""
+    highest, times) where it stands on its extreme within its noise, for long or that many times."""
 
     step: float
     finest: float
@@ -32,7 +33,7 @@ class Reading:
     low_n: int = 0
     high: float | None = None
     high_n: int = 0
-    plateau: tuple[float, float, int] | None = None
+    plateau: Shown | None = None
 
     @property
     def has_moved(self) -> bool:

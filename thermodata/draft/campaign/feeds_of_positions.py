@@ -33,7 +33,9 @@ def feeds_of_positions(channels: Sequence[DraftChannel], groups: Sequence[Group]
             continue
         name = channel_name(f"v_{axis}", taken)
         taken.add(name.lower())
-        why = f"no feed of {axis.upper()} is logged; it is the rate of its position"
+        path = next((c.name for c in channels if c.said.quantity == "feed" and not _is_of_an_axis(c)), None)
+        beside = f" ({path} may be that of the path of all axes)" if path else ""
+        why = f"no feed of {axis.upper()} is logged{beside}; it is the rate of its position"
         found[axis] = DerivedChannel(name, f"rate({channel.name})", "feed", "m/min", f"axis.{axis}", why)
     return tuple(found[axis] for axis in sorted(found))
 
@@ -45,6 +47,10 @@ def _positions(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
 def _has_feed(channels: Sequence[DraftChannel], axis: str) -> bool:
     at = (str(c.said.at).split(".") for c in channels if c.said.quantity == "feed")
     return any(place[:2] == ["axis", axis] for place in at)
+
+
+def _is_of_an_axis(channel: DraftChannel) -> bool:
+    return str(channel.said.at).startswith("axis.")
 
 
 def _moves(channel: DraftChannel, group: Group) -> bool:

@@ -114,19 +114,26 @@ def calibration_of(name: str, signal: Signal, said: Guess, jump: JumpTest | None
 
 
 def moved_too(signal: Signal, said: Guess, jumps: Sequence[JumpTest]) -> tuple[JumpTest | None, Guess]:
-    """The jump test of another axis's probe in which this one, which has none of its own, moved nearly as far, and the
-    question whether its axis was moved, too: what is across an axis answers by less. None where the file is called
-    after one axis, or the probes may be of the same one."""
+    """The jump test of another probe in which this one, which has none of its own, moved nearly as far, and what the
+    signal is by it. Along the axis that the test is of, it is the test of both. Of another axis's probe it is asked
+    whether its own axis was moved, too: what is across an axis answers by less. None where the file is called after
+    another axis, or nothing tells whose the test is."""
     for jump in jumps if said.axis else ():
-        if jump.signal is None or axis_of(words(jump.file.path.stem)) is not None:
+        if jump.signal is None:
             continue
-        moved = axis_of(words(parts_of(jump.written or jump.signal[1])[-1]))
+        called = axis_of(words(jump.file.path.stem))
+        moved = called or axis_of(words(parts_of(jump.written or jump.signal[1])[-1]))
         for other in jump.others:
             own = replace(jump, signal=other.signal, steps=other.steps, dwell_s=other.dwell_s, written=None, others=())
-            if moved in (None, (said.axis or "").lower()) or not own.is_of(signal.stream, signal.name):
+            if not own.is_of(signal.stream, signal.name):
                 continue
-            asked = f"did the axis {said.axis} move in {jump.file.path.name}? '{jump.signal[1]}' moved at the same time"
-            return own, replace(said, sure=False, questions=(*said.questions, asked))
+            if moved == (said.axis or "").lower():
+                return replace(own, moved_with=jump.signal[1]), said
+            if moved is not None and called is None:
+                asked = (
+                    f"did the axis {said.axis} move in {jump.file.path.name}? '{jump.signal[1]}' moved at the same time"
+                )
+                return own, replace(said, sure=False, questions=(*said.questions, asked))
     return None, said
 
 
@@ -148,6 +155,7 @@ def _by_jump(name: str, signal: Signal, said: Guess, jump: JumpTest, beside: str
         asked = f"axis: {axis} by {jump.file.path.name}?"
         said = replace(said, axis=axis, sure=False, questions=(*others, asked))
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
+    alike = f"; the same as for '{jump.moved_with}'" if jump.moved_with else ""
     drafted = DraftJump(
         f"jump_{name}",
         jump.source,
@@ -157,7 +165,7 @@ def _by_jump(name: str, signal: Signal, said: Guess, jump: JumpTest, beside: str
         float(f"{jump.dwell_s:.2g}"),
         seen,
         said.unit,
-        "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
+        "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + alike + beside,
         jump.file.sheet,
     )
     return Turned(said, drafted.name if axis else None, drafted)

@@ -1,21 +1,23 @@
-"""When a test measures, told from its recording: probes that leave their range exactly while an axis is elsewhere or
+"""When a test measures, told from its recordings: probes that leave their range exactly while an axis is elsewhere or
 feeds, or a state says so, as with a spindle that meets its probes once a cycle."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from thermodata.calibration.quality.stays import BAND, stays_at_extreme
+from thermodata.draft.courses.beside import Beside, beside
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.files.sample import Course
 from thermodata.draft.times.clocks import Named
 from thermodata.plugin import Bool1D, Float1D
 
 _LEAST = 0.02  # of the samples out of range, and in it
 _AGREES = 0.99  # of the samples
 _FEWEST = 50
-Key = tuple[str, str]
+_SURE = 0.5  # of the samples, at least
+_MOST_FEEDS = 6
 
 
 def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
@@ -24,16 +26,16 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
     named: id of a file -> (stream, signal) -> (quantity, place, channel).
     """
     for file in files:
-        courses = {k: c for k, c in file.sample.courses.items() if k in named.get(id(file), {})}
         names = named.get(id(file), {})
-        probes = [k for k in courses if names[k][0] == "displacement" and names[k][1] == "tcp"]
-        for probe in probes:
-            out = _out_of_range(courses[probe].values)
+        for key, course in file.sample.courses.items():
+            quantity, place, _ = names.get(key, ("", None, ""))
+            out = _out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
             if out is None:
                 continue
-            for way in (_by_state, _by_position, _by_feed):
-                if (found := way(courses, names, probe, out)) is not None:
-                    return found
+            for signals in beside(files, named, file, course.t_ns):
+                for way in (_by_state, _by_position, _by_feed, _by_feeds):
+                    if (found := way(signals, out)) is not None:
+                        return found
     return None
 
 
@@ -45,6 +47,9 @@ def _out_of_range(x: Float1D) -> Bool1D | None:
     if x.size < _FEWEST or not fine.size:
         return None
     span = float(np.ptp(fine))
+    noisy = stays_at_extreme(fine)
+    if noisy is not None:
+        out |= ~none & (np.abs(x - noisy[0]) <= BAND * noisy[1])
     rails: list[tuple[float, Bool1D]] = []
     for end in (float(fine.min()), float(fine.max())):
         at_end = ~none & (np.abs(x - end) <= 1e-3 * span)
@@ -61,31 +66,21 @@ def _out_of_range(x: Float1D) -> Bool1D | None:
     return out if _LEAST < out.mean() < 1 - _LEAST else None
 
 
-def _beside(courses: Mapping[Key, Course], probe: Key, other: Key) -> Float1D | None:
-    """Another signal at the probe's times: its own rows, or what held then. Shape (n,)."""
-    one, two = courses[probe], courses[other]
-    if one.t_ns.size == two.t_ns.size and bool((one.t_ns == two.t_ns).all()):
-        return two.values
-    if not two.t_ns.size:
-        return None
-    at = np.clip(np.searchsorted(two.t_ns, one.t_ns, side="right") - 1, 0, two.t_ns.size - 1)
-    return np.asarray(two.values[at])
-
-
-def _by_state(courses: Mapping[Key, Course], names: Named, probe: Key, out: Bool1D) -> str | None:
-    for key in courses:
-        if names[key][0] != "state" or (x := _beside(courses, probe, key)) is None:
+def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    for one in signals:
+        if one.quantity != "state":
             continue
-        for level in np.unique(x[np.isfinite(x)])[:8]:
-            if _agree(x == level, ~out):
-                return f"{names[key][2]} == {level:g}"
+        for level in np.unique(one.before[np.isfinite(one.before)])[:8]:
+            if _agree(one, lambda x, level=level: x == level, ~out):  # type: ignore[misc]
+                return f"{one.channel} == {level:g}"
     return None
 
 
-def _by_position(courses: Mapping[Key, Course], names: Named, probe: Key, out: Bool1D) -> str | None:
-    for key in courses:
-        if names[key][0] != "position" or (x := _beside(courses, probe, key)) is None:
+def _by_position(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    for one in signals:
+        if one.quantity != "position" or one.elsewhere:  # between two rows of another log it may pass anywhere
             continue
+        x = one.before
         inside, beyond = x[~out & np.isfinite(x)], x[out & np.isfinite(x)]
         if not inside.size or not beyond.size:
             continue
@@ -95,18 +90,40 @@ def _by_position(courses: Mapping[Key, Course], names: Named, probe: Key, out: B
         if far <= 2 * near or far <= 0:
             continue
         limit = float(f"{np.sqrt(max(near, 1e-3 * far) * far):.2g}")
-        if _agree(np.abs(x - middle) < limit, ~out):
-            return f"abs({names[key][2]} - {middle:.6g}) < {limit:g}"
+        if _agree(one, lambda x, middle=middle, limit=limit: np.abs(x - middle) < limit, ~out):  # type: ignore[misc]
+            return f"abs({one.channel} - {middle:.6g}) < {limit:g}"
     return None
 
 
-def _by_feed(courses: Mapping[Key, Course], names: Named, probe: Key, out: Bool1D) -> str | None:
+def _by_feed(signals: Sequence[Beside], out: Bool1D) -> str | None:
     """A feed that is 0 exactly while the probe has a reading, whatever its unit."""
-    for key in courses:
-        if names[key][0] == "feed" and (x := _beside(courses, probe, key)) is not None and _agree(x == 0, ~out):
-            return f"{names[key][2]} == 0"
-    return None
+    return next((f"{b.channel} == 0" for b in signals if b.quantity == "feed" and _agree(b, _stands, ~out)), None)
 
 
-def _agree(rule: Bool1D, measured: Bool1D) -> bool:
-    return bool((rule == measured).mean() >= _AGREES)
+def _by_feeds(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    """All feeds, and speeds of tables and axes, that move while the probe has no reading, and then only."""
+    moving = []
+    stand, sure = np.ones(out.size, dtype=bool), np.ones(out.size, dtype=bool)
+    for one in signals:
+        if one.quantity == "feed" or (one.quantity == "rotational_speed" and _is_axis(one.place)):
+            stands, certain = one.told(_stands)
+            here = stands[~out & certain]
+            if here.size and here.mean() >= _AGREES and not stands[out & certain].all():
+                moving.append(one.channel)
+                stand, sure = stand & stands, sure & certain
+    if not 0 < len(moving) <= _MOST_FEEDS or sure.mean() < _SURE or (stand == ~out)[sure].mean() < _AGREES:
+        return None
+    return " and ".join(f"{channel} == 0" for channel in moving)
+
+
+def _is_axis(place: str | None) -> bool:
+    return (place or "").split(".")[0] in ("axis", "rotary", "table")
+
+
+def _stands(x: Float1D) -> Bool1D:
+    return np.asarray(x == 0)
+
+
+def _agree(one: Beside, rule: Callable[[Float1D], Bool1D], measured: Bool1D) -> bool:
+    holds, sure = one.told(rule)
+    return bool(sure.mean() >= _SURE and (holds == measured)[sure].mean() >= _AGREES)

@@ -50,7 +50,8 @@ class JumpTest:
     """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
     the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too. source: that reads
     it; written: what its own file calls the probe, where the tests call it otherwise. others: probes that moved nearly
-    as far, as a second one along the axis does."""
+    as far, as a second one along the axis does. moved_with: the probe with which it was moved along its axis,
+    by the same moves."""
 
     file: RawFile
     signal: tuple[str, str] | None
@@ -60,6 +61,7 @@ class JumpTest:
     source: str = ""
     written: str | None = None
     others: tuple[Moved, ...] = ()
+    moved_with: str | None = None
 
     def is_of(self, stream: str, name: str) -> bool:
         """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""

@@ -86,7 +86,9 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
 
     def fitting(name: str) -> list[dict[str, str]]:
         effect = known.get(name)
-        return _on_axis(unnamed(effect, drivers), drivers, axis or "none") if effect is not None else []
+        if effect is None:
+            return []
+        return _nearest_first(name, _on_axis(unnamed(effect, drivers), drivers, axis or "none"), drivers)
 
     for name in _PLAIN:
         for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
@@ -146,6 +148,17 @@ def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: s
         at = drivers[name].at or ""
         return not at.startswith("axis.") or at.split(".")[1] == axis.lower()
 
-    # the air of the hall before that at its top or bottom, which is warmer or colder for most of the day
-    mine = [b for b in found if all(own(c) for c in b.values())]
-    return sorted(mine, key=lambda b: any(is_around(at := drivers[c].at) and "." in (at or "") for c in b.values()))
+    return [b for b in found if all(own(c) for c in b.values())]
+
+
+def _nearest_first(effect: str, found: list[dict[str, str]], drivers: Mapping[str, _Known]) -> list[dict[str, str]]:
+    """The bindings in their order, but a sensor at the part that the effect is called after before others: of
+    table_bearing table.bearing before table.motor; and the air of the hall before that at its top or bottom, which is
+    warmer or colder for most of the day."""
+
+    def rank(binding: Mapping[str, str]) -> tuple[bool, int]:
+        places = [drivers[c].at or "" for c in binding.values()]
+        aside = any(is_around(at) and "." in at for at in places)
+        return aside, -len(set(effect.split("_")) & {part for at in places for part in at.split(".")})
+
+    return sorted(found, key=rank)

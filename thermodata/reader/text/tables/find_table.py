@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -177,10 +177,13 @@ def _timed(
     if not group.dated:
         return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
-    def more(k: int) -> list[str]:
+    @cache
+    def below() -> list[list[str]]:
         repeats = repeats_of(map(lines.cells, lines.head[: layout.first]))
-        rows = still_going(lines.below(layout.first), group, layout)
-        return [r[group.time[k]] for r in rows if len(r) > group.time[k] and not repeats(r)]
+        return [r for r in still_going(lines.below(layout.first), group, layout) if not repeats(r)]
+
+    def more(k: int) -> list[str]:
+        return [r[group.time[k]] for r in below() if len(r) > group.time[k]]
 
     columns = [[r[i] for r in still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]

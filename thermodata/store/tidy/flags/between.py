@@ -4,8 +4,8 @@ back, and the streams that it touches are made again."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,13 +14,13 @@ from thermodata.calibration.between_tests.dead import dead_throughout
 from thermodata.calibration.between_tests.failing import offsets_between_tests
 from thermodata.calibration.between_tests.foreign import foreign_part
 from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
-from thermodata.calibration.quality.range import Limits, ends_of_ranges, plateau_at_extreme
+from thermodata.calibration.quality.range import Limits, ends_of_ranges
 from thermodata.calibration.quality.still import Reading, read_elsewhere
-from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.words.places import is_at_tool
 from thermodata.store.tidy.flags.flicker import Flicker
+from thermodata.store.tidy.flags.readings import as_read, reading_with
 
 if TYPE_CHECKING:
     from thermodata.store.tidy.plan.plan import Bound
@@ -108,10 +108,10 @@ class Sampler:
                 self._off[name][here] = (flags & np.uint16(Flag.OFFSET)) != 0
         for name, flicker in self._flickers.items():
             if name in columns:
-                flicker.take(_as_read(columns[name]))
+                flicker.take(as_read(columns[name]))
         for name in self._readings:
             if name in columns:
-                self._readings[name] = _more(self._readings[name], columns[name], t_s)
+                self._readings[name] = reading_with(self._readings[name], columns[name], t_s)
         self._add_pauses(t_s, columns)
 
     def _add_pauses(self, t_s: Float1D, columns: Mapping[str, Column]) -> None:
@@ -143,73 +143,8 @@ class Sampler:
         }
 
 
-def _as_read(column: Column) -> Float1D:
-    """The values of a channel, NaN where they are none of it. What stands is wanted here: a verdict that flags it must
-    come out the same once it is flagged."""
-    judged = np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK | Flag.SATURATED))
-    return np.where((column.flags & judged) == 0, column.values, np.nan)
-
-
 def _rounded(x: Float1D) -> list[float | None]:
     return [round(float(v), 3) if np.isfinite(v) else None for v in x]
-
-
-def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
-    """How a channel reads, from the chunk in which it moves most; and its longest stretch of one value in any."""
-    x = _as_read(column)
-    stats = run_stats(x)
-    d = np.diff(x)
-    moving = int(np.count_nonzero(d[np.isfinite(d)]))
-    stood = max(
-        (float(t_s[a + n - 1] - t_s[a]) for a, n in zip(stats.starts.tolist(), stats.lengths.tolist(), strict=True)),
-        default=0.0,
-    )
-    new = Reading(
-        stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x, stats), _plateau(x, t_s)
-    )
-    if known is None:
-        return new
-    low, low_n = _further(min, (known.low, known.low_n), (new.low, new.low_n))
-    high, high_n = _further(max, (known.high, known.high_n), (new.high, new.high_n))
-    return replace(
-        known if known.moving >= moving else new,
-        stood_s=max(stood, known.stood_s),
-        low=low,
-        low_n=low_n,
-        high=high,
-        high_n=high_n,
-        plateau=known.plateau or new.plateau,
-    )
-
-
-def _plateau(x: Float1D, t_s: Float1D) -> tuple[float, float, int] | None:
-    """See `Reading`."""
-    known = np.isfinite(x)
-    found = plateau_at_extreme(t_s[known], x[known])
-    return None if found is None else (found.level, found.noise, found.side)
-
-
-def _extremes(x: Float1D, stats: RunStats) -> tuple[float | None, int, float | None, int]:
-    """Lowest value of x and how many readings stand there, and the same of the highest. A reading is one, however often
-    it is logged."""
-    known = x[np.isfinite(x)]
-    if not len(known):
-        return None, 0, None, 0
-    every, _ = refreshed(stats.lengths, len(x))
-    low, high = float(known.min()), float(known.max())
-    low_n, high_n = (int(np.count_nonzero(known == end)) // every for end in (low, high))
-    return low, low_n, high, high_n
-
-
-def _further(
-    which: Callable[[float, float], float], a: tuple[float | None, int], b: tuple[float | None, int]
-) -> tuple[float | None, int]:
-    """The further one of two extremes, each with its number of samples; of the same, all of them."""
-    if a[0] is None or b[0] is None:
-        return b if a[0] is None else a
-    if a[0] == b[0]:
-        return a[0], a[1] + b[1]
-    return a if which(a[0], b[0]) == a[0] else b
 
 
 def levels_of(
