@@ -164,6 +164,8 @@ def test_what_refines_the_model_is_told_with_the_names_that_it_cannot_be_told_fr
     assert f"can be refined by {apart}, error on left-out" in verdict_sentence(found("refine", [second]))
     both = verdict_sentence(found("effect", [claim("screw"), second, one("mode", refinement=True)]))
     assert both.endswith(f"can be refined by {apart}, and by mode (T)")
+    named = second.model_copy(update={"effect": "mode"})
+    assert "mode (T), error" in verdict_sentence(found("refine", [named])), "a name says which physics it is"
     changed = second.model_copy(update={"effect": "air", "phases": ["heating", "cooling"], "equivalent": twins})
     assert "not told from" not in verdict_sentence(found("refine", [changed]))
 

@@ -32,8 +32,10 @@ def not_told_from(one: Candidate) -> str:
 
 
 def named_twins(one: Candidate) -> str:
-    """', which may be coolant, not told from feed_screw (T_nut)', of what refines the model: a lag may stand for
-    physics that the model has nothing of; '' where it can't be told from none."""
+    """', which may be coolant, not told from feed_screw (T_nut)', of a lag that refines the model: it may stand for
+    physics that the model has nothing of; '' of what has a name, and where it can't be told from none."""
+    if one.effect not in _UNNAMED:
+        return ""
     own = [twin for twin in one.equivalent if twin.partition(":")[0] not in _CHANGES]
     of_effects = one.model_copy(update={"equivalent": own})
     apart = "" if one.gain_by or one.phases else not_told_from(of_effects)
