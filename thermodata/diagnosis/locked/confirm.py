@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -22,6 +23,8 @@ from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import Dataset, TestData
 
+AS_REFITTED = 0.1  # of an error: a model whose refit to all open tests leaves as much is not told beside it
+
 
 @dataclass(frozen=True, slots=True)
 class Shape:
@@ -40,12 +43,13 @@ class Confirmation:
 
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. All are of fits to all open tests. stands: as scored, of
-    the model as it is fitted to its own tests, which is what somebody has; None where it was not asked. changed: RMS of
-    what the addition changes there. each: (key, error before, error after) of every locked test. shapes: of every one,
-    too. asked: the keys of those that decide, for a claim acts there; None: all. acts: the keys of those in which the
-    candidates themselves act, fitted beside the model as it stands (`ACTS`). does: how much they do in each, about its
-    mean. most: in the open test in which they do most. implausible: what is said of gains that are larger than anything
-    known, by candidate. fitted: with the candidates, to all open tests.
+    the model as it is fitted to its own tests, which is what somebody has; None where it was not asked, or the refit
+    leaves as much (`AS_REFITTED`). changed: RMS of what the addition changes there. each: (key, error before, error
+    after) of every locked test. shapes: of every one, too. asked: the keys of those that decide, for a claim acts
+    there; None: all. acts: the keys of those in which the candidates themselves act, fitted beside the model as it
+    stands (`ACTS`). does: how much they do in each, about its mean. most: in the open test in which they do most.
+    implausible: what is said of gains that are larger than anything known, by candidate. fitted: with the candidates,
+    to all open tests.
     """
 
     before: float | None
@@ -136,8 +140,15 @@ def confirm(
         most=most,
         implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
         fitted=theirs,
-        stands=None if stands is None else rmse(stands, usable),
+        stands=None if stands is None else _told_apart(rmse(stands, usable), rmse(ours, usable)),
     )
+
+
+def _told_apart(stands: float | None, refitted: float | None) -> float | None:
+    """The error of the model as it is fitted; None where its refit leaves as much."""
+    if stands is None or refitted is None or math.isclose(stands, refitted, rel_tol=AS_REFITTED):
+        return None
+    return stands
 
 
 class Fits:

@@ -93,8 +93,8 @@ class Candidate(Result):
     locked_rmse_um_before: error on the locked tests without it, of a refit of the model to all open tests; for a
         claimed one only
     locked_rmse_um_after: with it, fitted likewise
-    locked_rmse_um_fitted: of the model as it is fitted, which is the one that the user has; for a claimed one only,
-        null in an answer of an older version
+    locked_rmse_um_fitted: of the model as it is fitted, which is the one that the user has; for a claimed one only;
+        null where the refit leaves as much to a tenth, and in an answer of an older version
     locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
         they were opened for, over those in which it acts; of what they were opened for and is neither, of the looks
         that say anything the one in which the error falls least, as the reason tells it

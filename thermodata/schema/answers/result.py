@@ -115,7 +115,7 @@ class FitResult(Result):
         of that is added; null where it is not, or none was asked
     locked_rmse_um_after: the same with all that it claims
     locked_rmse_um_fitted: the same of the parent as it is fitted, for the one before is refitted to all open tests;
-        null in an answer of an older version
+        null where both leave as much to a tenth, and in an answer of an older version
     lost: of add and remove: what the parent predicts and this version does not; an error before and one after are
         comparable over the tests of both only
     """
