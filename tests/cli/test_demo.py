@@ -154,3 +154,14 @@ def test_an_unknown_effect_is_named(say: Say, tmp_path: Path) -> None:
 def test_simulate_refuses_a_folder_with_files(say: Say, tmp_path: Path) -> None:
     (tmp_path / "x").write_text("")
     assert say("simulate", tmp_path).code == 2
+
+
+@pytest.mark.parametrize(("fitted", "before"), [(None, "5.08"), (6.5, "6.50")])
+def test_the_end_of_the_story_tells_locked_tests_from_the_model_as_it_is_fitted(
+    fitted: float | None, before: str
+) -> None:
+    """Null where its refit leaves as much."""
+    result = dict.fromkeys(KEYS) | {"claims": ["feed_screw:feed_Z"], "refinements": [], "seconds": 16.0}
+    locked = {"locked_rmse_um_before": 5.08, "locked_rmse_um_after": 0.849, "locked_rmse_um_fitted": fitted}
+    lines = summary_text({**result, "rmse_um_before": 2.99, "rmse_um_after": 0.6, **locked}).splitlines()
+    assert [line.split(maxsplit=2)[2] for line in lines if line.startswith("locked")] == [f"{before} -> 0.849 um"]

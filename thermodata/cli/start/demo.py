@@ -264,7 +264,8 @@ def summary_text(result: dict[str, Any]) -> str:
         rows.append(("not told from", ", ".join(result["equivalents"])))
     rows.append(("open tests", pair(result["rmse_um_before"], result["rmse_um_after"])))
     if result["locked_rmse_um_after"] is not None:
-        rows.append(("locked tests", pair(result["locked_rmse_um_fitted"], result["locked_rmse_um_after"])))
+        own, refitted = result["locked_rmse_um_fitted"], result["locked_rmse_um_before"]
+        rows.append(("locked tests", pair(refitted if own is None else own, result["locked_rmse_um_after"])))
     rows += [
         ("report", result["report"]),
         ("look around", f"thermodata --store {result['store']} tests"),
