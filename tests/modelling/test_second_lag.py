@@ -93,6 +93,13 @@ def test_heat_that_passes_two_bodies_alike_gets_two_lags_that_are_kept_apart(bot
     assert max(abs(gains["lag.gain"]), abs(gains["lag_lag2.gain"])) < 20.0
 
 
+def test_two_lags_whose_bounds_leave_no_room_apart_stay_one(both: Model) -> None:
+    """Half of the ratio below 40 min lies below the least that the file allows."""
+    narrow = both.effects[1].model_copy(update={"bounds": {"tau": (38.0, 60.0)}})
+    held = both.model_copy(update={"effects": [both.effects[0], narrow]})
+    assert with_second_lags(held, machine(two_alike)).lags == ()
+
+
 def test_lags_that_are_kept_apart_must_be_worth_it_too(both: Model, monkeypatch: pytest.MonkeyPatch) -> None:
     data = machine(two_alike)
     monkeypatch.setattr(second_lag, "APART", 30.0)
