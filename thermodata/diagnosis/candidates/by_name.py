@@ -7,23 +7,17 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.of_library import ARTEFACT, that_may_drive
 from thermodata.effect.binding import bindings, candidate_id
 from thermodata.plugin import Effect
-from thermodata.schema.units.quantity import NOT_DRIVERS
 from thermodata.view.grid.dataset import ChannelInfo, TestData
-
-ARTEFACT = "artefact"  # a family: what the logs have, and no machine does
 
 
 def only_by_name(
     library: Iterable[Effect], channels: Mapping[str, ChannelInfo], tests: Sequence[TestData], response: str
 ) -> list[str]:
     """Ids of those of which every driver moves in one of the tests at least. library: effects that are not asked."""
-    usable = {
-        n: c
-        for n, c in channels.items()
-        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
-    }
+    usable = that_may_drive(channels, response)
     moves = {n for n in usable if any(_moves(t, n) for t in tests)}
     return [
         candidate_id(one.name, binding)

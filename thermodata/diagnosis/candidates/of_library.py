@@ -33,6 +33,7 @@ from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
 STATIC = "static"
+ARTEFACT = "artefact"  # a family: what the logs have, and no machine does
 # parts of a body that make heat
 HEATED_PARTS = ("bearing", "motor")
 # a distributed machine also acts with these multiples of an effect's time constant
@@ -161,13 +162,7 @@ def candidates(
     plain = tuple(p for p in own if is_plain(p.effect, library))
     # a plain function is no other effect than what it stands for
     acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
-    # a sensor that failed goes with anything that happened when it did; one that failed in a test or two of many drives
-    # nothing there (`CandidateEffect.in_test`)
-    usable = {
-        n: c
-        for n, c in channels.items()
-        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
-    }
+    usable = that_may_drive(channels, response)
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}
     # a temperature that is modelled reads its own part
@@ -176,9 +171,19 @@ def candidates(
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     beside = _Beside(library, usable, model, plain, frozenset(known), placed, telling, at_rest, feedback or {})
     # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
-    asked = [e for e in library.values() if not (e.family == "artefact" or not e.needs or e.name == STATIC)]
+    asked = [e for e in library.values() if not (e.family == ARTEFACT or not e.needs or e.name == STATIC)]
     found = [beside.candidate(e, binding) for e in asked for binding in bindings(e, usable)]
     return _told_by_names([one for one in found if one is not None])
+
+
+def that_may_drive(channels: Mapping[str, ChannelInfo], response: str) -> dict[str, ChannelInfo]:
+    """The channels that may drive an effect of a response. A sensor that failed goes with anything that happened when
+    it did; one that failed in a test or two of many drives nothing there (`CandidateEffect.in_test`)."""
+    return {
+        n: c
+        for n, c in channels.items()
+        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
+    }
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING
 
+from thermodata.report.verdict.twins import as_named
 from thermodata.report.words.numbers import number, percent
 from thermodata.schema.words.sentences import listed
 
@@ -59,16 +60,11 @@ def _only_by_name(found: Diagnosis) -> str:
     if not names:
         return ""
     rest = [f"{len(names) - SHOWN} more"] if len(names) > SHOWN else []
-    told = listed([*(_by_channels(name) for name in names[:SHOWN]), *rest])
+    told = listed([*(as_named(name) for name in names[:SHOWN]), *rest])
     alone = len(names) == 1
     itself, drives, them = ("itself", "it", "it") if alone else ("themselves", "them", "the first")
     unasked = f"not asked for by {itself}, though all that drives {drives} is logged: {told}"
     return f"{unasked}; thermodata confirm {found.model[:8]} {names[0]} asks locked tests of {them}"
-
-
-def _by_channels(name: str) -> str:
-    effect, _, channels = name.partition(":")
-    return f"{effect} ({channels.replace(',', ', ')})"
 
 
 def _never_moved(found: Diagnosis) -> str:

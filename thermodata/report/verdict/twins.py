@@ -27,7 +27,7 @@ def not_told_from(one: Candidate) -> str:
     for twin in one.equivalent:
         effect, _, channels = twin.partition(":")
         if effect not in (*_UNNAMED, one.effect) and not set(channels.split(",")) <= set(one.drivers):
-            found.setdefault(effect, _as_named(twin))
+            found.setdefault(effect, as_named(twin))
     return f"not told from {listed(list(found.values())[:_MOST])}" if found else ""
 
 
@@ -42,7 +42,7 @@ def named_twins(one: Candidate) -> str:
     return by_name(of_effects) + (f", {apart}" if apart else "")
 
 
-def _as_named(candidate: str) -> str:
+def as_named(candidate: str) -> str:
     """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
     effect, _, channels = candidate.partition(":")
     return f"{effect} ({channels.replace(',', ', ')})" if channels else effect
