@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.by_name import only_by_name
+from thermodata.diagnosis.question.present import Present
 from thermodata.effect import effects
 from thermodata.effect.registry import all_effects
 from thermodata.view.grid.dataset import ChannelInfo, TestData
@@ -36,6 +37,13 @@ def with_heights(heights: list[float]) -> TestData:
 def test_the_same_heat_at_two_positions_may_be_asked_for_by_name(heights: list[float], named: bool) -> None:
     found = only_by_name(UNASKED, CHANNELS, [with_heights(heights)], "dY")
     assert found == (["overhang:T_head,pos_z"] if named else [])
+
+
+def test_what_the_model_has_is_not_named_again() -> None:
+    has = [Present("overhang", frozenset({"T_ram", "pos_z"}), "overhang"), Present("guideway", frozenset({"pos_z"}))]
+    test = with_heights([100.0, 400.0])
+    assert not only_by_name(UNASKED, CHANNELS, [test], "dY", has)
+    assert only_by_name(UNASKED, CHANNELS, [test], "dY", has[1:])
 
 
 def test_a_sensor_that_failed_is_none_to_ask_for() -> None:

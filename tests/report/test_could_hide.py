@@ -6,12 +6,13 @@ from typing import Any
 
 import pytest
 
-from thermodata.report.verdict.could_hide import could_be, could_hide
+from thermodata.report.verdict.could_hide import could_be, could_hide, was_not_asked
 from thermodata.report.verdict.left_over import left_over
 from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis
-from thermodata.schema.answers.missing_heat import Unknown
+from thermodata.schema.answers.missing_heat import HeatCompanion, Unknown
 
 from ..answers import diagnosis
+from .conftest import missing_heat
 
 
 def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", behind: str | None = None) -> Any:
@@ -119,6 +120,15 @@ def test_a_headline_names_what_no_size_would_have_shown() -> None:
     assert could_be(asked) == "what n_C moves (no open test does), a (T), b (T) or 2 more"
 
 
+@pytest.mark.parametrize(("without", "told"), [("T", ""), ("T_other", "floor (T)")])
+def test_a_headline_names_nothing_that_the_missing_heat_does_not_go_with(without: str, told: str) -> None:
+    heat = missing_heat().model_copy(
+        update={"goes_not_with": [HeatCompanion(channel=without, at=None, on_with=None, on_without=None, follows=0.0)]}
+    )
+    unknown = Unknown(time_constants_h=[], hours_of_day=[], states=[], heat=heat)
+    assert could_be(found(one("floor", None)).model_copy(update={"unknown": unknown})) == told
+
+
 @pytest.mark.parametrize(
     ("fitted", "limits", "told"),
     [
@@ -149,3 +159,8 @@ def test_what_the_user_may_ask_for_is_said_with_the_command_that_asks() -> None:
     text = could_hide(asked.model_copy(update={"unknown": several}))
     assert "themselves, though all that drives them is logged: a (T, z) and b (u); " in text
     assert text.endswith(" a:T,z asks locked tests of the first")
+    assert was_not_asked(asked) == "a (T, z) was not asked for, though all that drives it is logged"
+    assert was_not_asked(asked.model_copy(update={"unknown": several})) == (
+        "a (T, z) and 1 more were not asked for, though all that drives them is logged"
+    )
+    assert not was_not_asked(diagnosis(verdict="none"))

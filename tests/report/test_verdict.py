@@ -480,7 +480,7 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
             (1.56, 0.777, 0.83),
             (0.574, 0.656),
             "; locked tests 1.56 (0.777 refitted to all open tests) -> 0.830 um, by their shape 0.574 -> 0.656 um from "
-            "the refitted one on: they get better than with the model as it is fitted, and no better than with the "
+            "the refitted one on: they get better than with the model as it is fitted, and worse than with the "
             "refitted one",
         ),
         (
@@ -776,6 +776,17 @@ def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None
     text = verdict_sentence(found("unknown", [one("screw", probability=share)], rmse_um=1.4, response_um=5.1))
     assert ("suffices to name no cause; the likeliest that was logged is screw (T)" in text) is likely
     assert ("on left-out tests (1.40 um of the response's 5.10) that nothing logged is likely" in text) is not likely
+
+
+def test_nothing_logged_is_said_only_where_all_that_is_logged_was_asked() -> None:
+    not_asked = Unknown(time_constants_h=[], hours_of_day=[], states=[], not_logged=0.77, by_name=["overhang:T,z"])
+    some = [one("screw", probability=0.01)]
+    text = verdict_sentence(found("unknown", some, rmse_um=1.4, response_um=5.1, unknown=not_asked))
+    assert "that nothing that was asked for is likely to explain" in text
+    assert (
+        "; overhang (T, z) was not asked for, though all that drives it is logged; that no logged channel that" in text
+    )
+    assert text.endswith("was asked about reads its cause is 77 % probable")
 
 
 @pytest.mark.parametrize(("left", "more"), [(5.0, False), (5.2, True)])

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from thermodata.view.grid.dataset import Dataset, TestData
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 88
+RULES_VERSION = 89
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -127,7 +127,8 @@ def _with_unasked(found: Diagnosis, model: Loaded) -> Diagnosis:
         return found
     asked, tests = effects(), model.fitted.tests(model.data)
     others = [one for name, one in all_effects().items() if name not in asked]
-    names = only_by_name(others, model.data.channels, tests, found.response)
+    of = next(r for r in model.fitted.responses if r.name == found.response)
+    names = only_by_name(others, model.data.channels, tests, of.name, present(of))
     return found.model_copy(update={"unknown": found.unknown.model_copy(update={"by_name": names})})
 
 

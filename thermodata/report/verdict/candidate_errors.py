@@ -89,9 +89,10 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
     if shape[1] >= shape[0]:
         if not better:
             return f"; locked tests get worse{all_of} ({figures}, by their shape {course})"
+        than = "worse" if after > before and shape[1] > shape[0] else "no better"
         return (
             f"; locked tests{all_of} {figures}, by their shape {course} from the refitted one on: they get better than "
-            "with the model as it is fitted, and no better than with the refitted one"
+            f"with the model as it is fitted, and {than} than with the refitted one"
         )
     if better:
         scored = f"as they are scored, from their first samples on, {figures}"

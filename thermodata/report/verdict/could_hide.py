@@ -26,14 +26,18 @@ def could_hide(found: Diagnosis) -> str:
 
 def could_be(found: Diagnosis) -> str:
     """'spindle_motor (T_motor) or feed_motor (T_Y)': what no size of it, or none below the response, would have shown,
-    and what no open test heats; '' where the tests would have shown all."""
+    and what no open test heats; '' where the tests would have shown all. Nothing that reads only what the missing heat,
+    as it is estimated, does not go with."""
     response = found.response_um or 0.0
+    heat = None if found.unknown is None else found.unknown.heat
+    against = set() if heat is None else {one.channel for one in heat.goes_not_with}
     names = [f"what {one.channel} moves (no open test does)" for one in found.at_rest]
     resting = {channel for one in found.at_rest for channel in (one.channel, *one.warms)}
     names += [
         _name(one)
         for one in _of_each(found.limits, response)
         if one.large and _is_unbound(one, response) and resting.isdisjoint(one.drivers)
+        if not against.issuperset(one.drivers)
     ]
     shown = list(dict.fromkeys(names))
     told = [*shown[:MOST], f"{len(shown) - MOST} more"] if len(shown) > MOST else shown
@@ -51,6 +55,16 @@ def may_act_instead(found: Diagnosis, but: Collection[str] = ()) -> str:
         return ""
     asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks locked ones, where there are some"
     return f"{_name(hidden)}, which {hidden.behind} hides in these tests, may do that instead ({asks})"
+
+
+def was_not_asked(found: Diagnosis) -> str:
+    """'overhang (T_head, pos_z) was not asked for, though all that drives it is logged'; '' where all was asked for."""
+    names = [] if found.unknown is None else found.unknown.by_name
+    if not names:
+        return ""
+    more = len(names) - 1
+    were, drives = (f" and {more} more were", "them") if more else (" was", "it")
+    return f"{as_named(names[0])}{were} not asked for, though all that drives {drives} is logged"
 
 
 def _only_by_name(found: Diagnosis) -> str:

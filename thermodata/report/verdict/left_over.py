@@ -48,9 +48,12 @@ def left_over(found: Diagnosis) -> str:
 
 
 def not_logged(found: Diagnosis) -> str:
-    """'that no logged channel reads its cause is 57 % probable'; '' where nobody knows."""
-    share = found.unknown.not_logged if found.unknown else None
-    return "" if share is None else f"that no logged channel reads its cause is {percent(share)} probable"
+    """'that no logged channel reads its cause is 57 % probable'; '' where nobody knows. The share counts what was asked
+    for."""
+    if found.unknown is None or found.unknown.not_logged is None:
+        return ""
+    channel = "no logged channel that was asked about" if found.unknown.by_name else "no logged channel"
+    return f"that {channel} reads its cause is {percent(found.unknown.not_logged)} probable"
 
 
 def most_left(found: Diagnosis) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
-from thermodata.report.verdict.could_hide import could_be
+from thermodata.report.verdict.could_hide import could_be, was_not_asked
 from thermodata.report.verdict.left_over import (
     as_of_nothing,
     left_over,
@@ -245,14 +245,16 @@ def _unclaimed(found: Diagnosis) -> str:
     # no more than models leave of a machine that lacks nothing, and nothing is plausible: then nobody knows
     as_much = "" if far or share >= PLAUSIBLE else as_of_nothing(found)
     if first is not None and share < UNLIKELY:
-        left = f"something is left{f'{seen},' if seen else on_left_out(found)} that nothing logged is likely to explain"
+        unasked = was_not_asked(found)
+        nothing = "nothing that was asked for" if unasked else "nothing logged"
+        left = f"something is left{f'{seen},' if seen else on_left_out(found)} that {nothing} is likely to explain"
         left += f", though {as_much}" if as_much else ""
         nearest = f"{_or_elsewhere(first)} comes nearest, probability {probability(share)}"
         open_still = could_be(found)
         if open_still:
-            still = f"it may still be {open_still}, which they can't exclude"
-            return f"{left}, as far as these tests can tell: {nearest}; {still}"
-        return f"{left}: {nearest}"
+            nearest += f"; it may still be {open_still}, which they can't exclude"
+            left += ", as far as these tests can tell"
+        return "; ".join(filter(None, [f"{left}: {nearest}", unasked]))
     missing = f"something may be missing, though {as_much}; " if as_much else f"something is missing{seen}, and "
     if first is None:
         return f"{missing}nothing logged may be named for it"
