@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.installed import look_at_readers_again
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Head
 from thermodata.reader.finding import registry
@@ -70,7 +71,7 @@ def install(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
     def put(*names: str) -> None:
         points = [EntryPoint(n, f"module_{n}:Reader", registry.GROUP) for n in names]
         monkeypatch.setattr(registry, "entry_points", lambda group: points)
-        registry.reload()
+        look_at_readers_again()
 
     def load(point: EntryPoint) -> object:
         if point.name not in CLASSES:
@@ -79,7 +80,7 @@ def install(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
 
     monkeypatch.setattr(registry, "_load", load)
     yield put
-    registry.reload()
+    look_at_readers_again()
 
 
 def write(tmp_path: Path, content: bytes) -> Path:

@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+from tests.installed import look_at_readers_again
 from thermodata.errors import FormatError, PluginError, QuestionError, StoreError, ThermodataError
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.finding import registry
@@ -69,7 +70,7 @@ def as_again(summary: IngestSummary) -> dict[str, Any]:
 def test_an_ingest_looks_the_version_of_a_reader_up_once_whatever_the_number_of_files(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    registry.reload()
+    look_at_readers_again()
     looked: list[str] = []
     right = registry.entry_points
     monkeypatch.setattr(registry, "entry_points", lambda **group: looked.append("x") or right(**group))

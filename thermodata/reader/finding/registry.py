@@ -89,13 +89,6 @@ def distribution_version(name: str) -> str:
     return _versions().get(name, "")
 
 
-def reload() -> None:
-    """Look again at what is installed."""
-    _all.cache_clear()
-    _told.clear()
-    _versions.cache_clear()
-
-
 def reader(name: str) -> Reader:
     """The reader of this name. UsageError names the installed ones, or the command that installs some."""
     good, bad = _all()

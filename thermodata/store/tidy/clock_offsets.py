@@ -178,7 +178,7 @@ def _estimate(
     )
     # the estimate's offset holds at its own origin, a Clock's at the first recorded time
     first = first_ns(source) + declared.offset_ns + declared.base_ns
-    offset = declared.offset_ns + best.offset_ns + round((first - best.origin_ns) * best.drift_ppm * 1e-6)
+    offset = declared.offset_ns + int(best.apply(np.array([first]))[0]) - first
     return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
 
 
