@@ -138,40 +138,26 @@ class _Scan:
         return end
 
     def _heading_line(self, text: str, line: int) -> Iterator[Item]:
-        if text.startswith(START_SPECIAL) and self.state != "special":
-            self.state, self.before_special = "special", self.state
-        elif self.state == "special":
+        """A line that is none of the rows, by what is read just now."""
+        if self.state == "special":
             if text.startswith(END_SPECIAL):
                 self.state = self.before_special
+        elif text.startswith(START_SPECIAL):
+            self.state, self.before_special = "special", self.state
         elif self.state == "names":
             if text.strip():
                 yield from self._names(text, line)
         elif text.startswith(MARK):
-            if self.strays:
-                yield Loss(
-                    f"{self.path.name} line {self.strays[0]}",
-                    reason=f"{counted(len(self.strays), 'line')} before a heading's end, of no heading",
-                )
-                self.strays = []
-            if self.header is None or is_file_header(self.lines):
-                own, heading = split_heading(self.lines)
-                header, odd = read_header(own)
-                if odd is not None:
-                    yield Note(odd)
-                if self.header is None or header != self.header:
-                    yield header
-                self.header, self.lines = header, []
-                if heading:
-                    yield Note(f"line {line}: no end of the file's header stands before the first heading")
-                    self.lines, self.state = heading, "names"
-            elif self.lines or not self.packets:
-                self.state = "names"
-            else:
-                self.state = "rows"
-                yield Loss(f"{self.path.name} line {line}", reason="the end of a header that is not there")
-        elif "\0" in text or (text.strip(" \t,;") and self.packets and not _KEY.match(text.encode())):
+            yield from self._end_of_heading(line)
+        else:
+            self._in_heading(text, line)
+
+    def _in_heading(self, text: str, line: int) -> None:
+        """A line of a heading, or one that is none of any."""
+        says_something = bool(text.strip(" \t,;"))
+        if "\0" in text or (says_something and self.packets and not _KEY.match(text.encode())):
             self.strays.append(line)
-        elif text.strip(" \t,;"):
+        elif says_something:
             self.lines.append(text)
             if len(self.lines) > _MOST_HEADER_LINES:
                 raise FormatError(
@@ -181,6 +167,34 @@ class _Scan:
                     got=f"{_MOST_HEADER_LINES} lines without it",
                     hint="write it anew from LabVIEW with its headers whole, or as TDMS",
                 )
+
+    def _end_of_heading(self, line: int) -> Iterator[Item]:
+        """At the mark that ends the file's header, or the heading of a packet."""
+        if self.strays:
+            yield Loss(
+                f"{self.path.name} line {self.strays[0]}",
+                reason=f"{counted(len(self.strays), 'line')} before a heading's end, of no heading",
+            )
+            self.strays = []
+        if self.header is None or is_file_header(self.lines):
+            yield from self._file_header(line)
+        elif self.lines or not self.packets:
+            self.state = "names"
+        else:
+            self.state = "rows"
+            yield Loss(f"{self.path.name} line {line}", reason="the end of a header that is not there")
+
+    def _file_header(self, line: int) -> Iterator[Item]:
+        own, heading = split_heading(self.lines)
+        header, odd = read_header(own)
+        if odd is not None:
+            yield Note(odd)
+        if self.header is None or header != self.header:
+            yield header
+        self.header, self.lines = header, []
+        if heading:
+            yield Note(f"line {line}: no end of the file's header stands before the first heading")
+            self.lines, self.state = heading, "names"
 
     def _names(self, text: str, line: int) -> Iterator[Item]:
         assert self.header is not None

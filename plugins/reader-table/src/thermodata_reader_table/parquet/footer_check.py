@@ -10,6 +10,7 @@ latter would be lost in a damaged one.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -111,28 +112,33 @@ class _Walk:
     def _value(self, kind: int, place: Place, depth: int) -> None:
         if depth > _DEEPEST:
             raise ValueError("its footer is nested too deep")
-        if kind in _VARINTS:
-            self._varint()
-            if place == _BYTES:
-                self._told(place, 1)
-        elif kind == _BINARY:
-            self._past(self._varint())
-        elif kind == _STRUCT:
-            self.fields(place, depth + 1)
-        elif kind in (_LIST, _SET):
-            self._list(place, depth)
-        elif kind == _MAP:
-            size = self._varint()
-            kinds = self._byte() if size else 0
-            for _ in range(size):  # each takes a byte at least, so the bytes end first
-                for item in (kinds >> 4, kinds & 15):
-                    self._value(item, place, depth + 1)
-        elif kind in (_BYTE, _TRUE, _FALSE):
-            self._past(1)
-        elif kind == _DOUBLE:
-            self._past(8)
-        else:
+        if kind not in _PAST:
             raise ValueError(f"its footer has a field of type {kind}, which there is not")
+        _PAST[kind](self, place, depth)
+
+    def _number(self, place: Place, _depth: int) -> None:
+        self._varint()
+        if place == _BYTES:
+            self._told(place, 1)
+
+    def _words(self, _place: Place, _depth: int) -> None:
+        self._past(self._varint())
+
+    def _struct(self, place: Place, depth: int) -> None:
+        self.fields(place, depth + 1)
+
+    def _map(self, place: Place, depth: int) -> None:
+        size = self._varint()
+        kinds = self._byte() if size else 0
+        for _ in range(size):  # each takes a byte at least, so the bytes end first
+            for item in (kinds >> 4, kinds & 15):
+                self._value(item, place, depth + 1)
+
+    def _one_byte(self, _place: Place, _depth: int) -> None:
+        self._past(1)
+
+    def _eight_bytes(self, _place: Place, _depth: int) -> None:
+        self._past(8)
 
     def _list(self, place: Place, depth: int) -> None:
         head = self._byte()
@@ -182,6 +188,18 @@ class _Walk:
     def _signed(self) -> int:
         value = self._varint()
         return (value >> 1) ^ -(value & 1)
+
+
+# how to go past a value of each type of the protocol
+_PAST: dict[int, Callable[[_Walk, Place, int], None]] = {
+    **dict.fromkeys((_TRUE, _FALSE, _BYTE), _Walk._one_byte),
+    **dict.fromkeys(_VARINTS, _Walk._number),
+    _DOUBLE: _Walk._eight_bytes,
+    _BINARY: _Walk._words,
+    **dict.fromkeys((_LIST, _SET), _Walk._list),
+    _MAP: _Walk._map,
+    _STRUCT: _Walk._struct,
+}
 
 
 class _EnoughError(Exception):
