@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.draft.signals.guess import guess
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import values_of
 from thermodata.reader.text import split_unit
 from thermodata.schema.units.quantity import linear_conversion

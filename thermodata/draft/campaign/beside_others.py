@@ -8,7 +8,7 @@ from statistics import median
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.one_signal import OneSignal
 from thermodata.draft.signals.guess import guess_of
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import least_reading
 from thermodata.plugin import Signal
 from thermodata.schema.units.quantity import normal_unit

@@ -19,7 +19,7 @@ from thermodata.draft.probes.jumps import JumpTest, is_length
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called
 from thermodata.draft.signals.own_scale import scale_note
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.two_units import with_both_units
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words

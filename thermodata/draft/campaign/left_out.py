@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.draft.campaign.extremes import extremes_among, extremes_note
 from thermodata.draft.folder.one_signal import OneSignal
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.naming import parts_of
 from thermodata.reader.signals.row_units import UNIT_OF
 from thermodata.reader.text import split_unit

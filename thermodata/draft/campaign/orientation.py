@@ -11,7 +11,7 @@ from thermodata.draft.folder.one_signal import OneSignal
 from thermodata.draft.probes.between_axes import question_between
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.which_way import ASKED, calibration_for
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words

@@ -8,7 +8,7 @@ from typing import Any
 
 from thermodata.draft.courses.kinds import Kind
 from thermodata.draft.folder.table import TestTable
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.times.clocks import Alignment
 
 

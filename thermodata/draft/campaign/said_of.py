@@ -12,7 +12,7 @@ from thermodata.draft.signals.guess import called, guess, told_of
 from thermodata.draft.signals.head_said import with_head, with_text
 from thermodata.draft.signals.implied_speed import with_speed_asked
 from thermodata.draft.signals.other_units import unit_question
-from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
 from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.values import Values, in_unit, joined

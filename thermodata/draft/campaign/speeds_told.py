@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from thermodata.draft.campaign.parts import DraftChannel
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.said_by_names import said_by
 
 _NEAR = 0.02  # of the speed that a name says

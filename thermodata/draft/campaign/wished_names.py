@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from thermodata.draft.signals.guess import called
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of, notes_of
 from thermodata.draft.signals.guess import guess_of, says_nothing
 from thermodata.draft.signals.numerals import bare_word
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import Values, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source

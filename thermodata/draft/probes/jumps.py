@@ -15,7 +15,7 @@ from thermodata.calibration.jump.plateaus import Step, find_steps
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from thermodata.draft.signals import units
-from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.values import Values, least_reading
 from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.places import AROUND

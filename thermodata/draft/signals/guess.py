@@ -17,7 +17,8 @@ from thermodata.draft.signals.implied_unit import with_unit
 from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
-from thermodata.draft.signals.quantity import NO_READING, NOTHING, Guess, quantity_of, range_text
+from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess, range_text
+from thermodata.draft.signals.quantity.quantity_of import quantity_of
 from thermodata.draft.signals.standard_units import with_standard_unit
 from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values

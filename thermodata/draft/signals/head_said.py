@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from thermodata.draft.signals.guess import called, guess, told_of
-from thermodata.draft.signals.quantity import NOTHING, Guess
+from thermodata.draft.signals.quantity.guessed import NOTHING, Guess
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal

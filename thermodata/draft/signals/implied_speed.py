@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.naming import words
 from thermodata.plugin import Signal
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from thermodata.draft.signals.doubted_units import MOST_OF_ONE, SHARED, hottest_c, is_fired
-from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.values import Values
 from thermodata.schema.units.quantity import normal_unit
 

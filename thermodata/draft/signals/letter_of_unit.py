@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from thermodata.draft.signals.placed import placed
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.naming import parts_of, words
 from thermodata.draft.words.vocabulary import quantities_in
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from thermodata.draft.signals.quantity import OF_SENSOR, Guess
+from thermodata.draft.signals.quantity.guessed import OF_SENSOR, Guess
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.place import described_place, place_of

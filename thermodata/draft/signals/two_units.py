@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.values import Values
 from thermodata.plugin import Signal
 from thermodata.reader.text.names.unit_in_name import other_unit

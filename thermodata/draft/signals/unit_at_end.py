@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from thermodata.draft.signals import units
-from thermodata.draft.signals.quantity import range_text
+from thermodata.draft.signals.quantity.guessed import range_text
 from thermodata.draft.signals.values import Values
 from thermodata.schema.units.quantity import is_unit
 

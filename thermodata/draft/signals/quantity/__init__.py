@@ -1,0 +1,1 @@
+"""What a signal measures, by its unit, its name and its values, in this order."""
