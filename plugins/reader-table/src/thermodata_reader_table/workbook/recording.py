@@ -6,17 +6,14 @@ signals are `sheet/name`.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
-from thermodata.archive.workbook import odd_cells
-from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
+from thermodata.errors import FormatError, QuestionError, ThermodataError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
 from thermodata.reader.text.page.layout import Layout, find_layout
@@ -25,103 +22,12 @@ from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
-from thermodata_reader_table.workbook.percent import counts_from_1904, percent_columns
+from thermodata_reader_table.workbook.book import Book, book_of
 from thermodata_reader_table.workbook.related import with_related
 from thermodata_reader_table.workbook.series import taken_apart
 from thermodata_reader_table.workbook.sheet import Stream, Table
 
 _BLOCK_VALUES = 1_000_000
-_SMALL = 8_000_000
-
-
-@dataclass(frozen=True)
-class Book:
-    """sheets: name -> rows, of those that are wanted and hold some. odd: what odd_cells() counted. percent: sheet ->
-    column -> numbers that are shown in per cent; from_1904: whether its days count from there, not from 1900."""
-
-    sheets: dict[str, list[list[Any]]]
-    odd: dict[str, int]
-    percent: dict[str, Counter[int]]
-    from_1904: bool
-
-
-def _book(path: Path, source: Source) -> Book:
-    """Small workbooks are kept: describing and reading follow each other."""
-    status = path.stat()
-    key = (str(path.resolve()), status.st_mtime_ns, status.st_size, (source.table or {}).get("sheet"))
-    return (_kept if status.st_size < _SMALL else _load)(*key)
-
-
-def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book:
-    import python_calamine
-
-    path = Path(name)
-    odd = odd_cells(path)
-    try:
-        book = python_calamine.CalamineWorkbook.from_path(str(path))
-    except Exception as error:  # calamine has many error classes, all of which mean: not this file
-        raise FormatError(
-            "not a readable workbook",
-            where=path.name,
-            got=str(error),
-            hint="open and save it in Excel or LibreOffice, or export the sheet as CSV",
-        ) from None
-    names = _asked(book.sheet_names, wanted, path.name)
-    sheets = {sheet: rows for sheet in names if (rows := _rows(book, sheet, path.name))}
-    if not sheets:
-        raise FormatError(
-            f"sheet '{names[0]}' is empty" if names else "a workbook without sheets",
-            where=path.name,
-            expected="a table",
-            hint="name another sheet: table: {sheet: NAME}",
-        )
-    return Book(sheets, odd, percent_columns(path), counts_from_1904(path))
-
-
-def _asked(names: Sequence[str], wanted: int | str | None, where: str) -> Sequence[str]:
-    """The sheets that a source is read from: the one that it declares, by its name or its number from 1, or all.
-    UsageError where there is none such."""
-    if wanted is None:
-        return names
-    if isinstance(wanted, str):
-        if wanted not in names:
-            raise UsageError(
-                f"no sheet '{wanted}'",
-                where=where,
-                expected=", ".join(names),
-                got=wanted,
-                hint="correct table: {sheet: ...}, or leave it out: every sheet with a table is read",
-            )
-        return [wanted]
-    number = int(wanted)
-    if not 1 <= number <= len(names):
-        raise UsageError(
-            f"no sheet {number}",
-            where=where,
-            expected=f"1 to {len(names)}",
-            got=str(number),
-            hint="sheets count from 1; or give the name",
-        )
-    return [names[number - 1]]
-
-
-def _rows(book: Any, sheet: str, where: str) -> list[list[Any]]:
-    """The rows of a sheet, down to the last that holds something. book: calamine's."""
-    try:
-        rows: list[list[Any]] = book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)
-    except Exception as error:
-        raise FormatError(
-            f"sheet '{sheet}' cannot be read",
-            where=where,
-            got=str(error),
-            hint="declare table: {sheet: ...} to read another one alone",
-        ) from None
-    while rows and not any(c not in ("", None) for c in rows[-1]):
-        rows.pop()
-    return rows
-
-
-_kept = lru_cache(maxsize=1)(_load)
 
 
 @dataclass
@@ -137,7 +43,7 @@ class Read:
 
 def read(path: Path, source: Source) -> Read:
     """FormatError where no sheet is a table (the reason of the first), or some have dates and others not."""
-    book = _book(path, source)
+    book = book_of(path, source)
     tables, notes = _layouts(path, source, book)
     several = len(tables) > 1
     if several:
@@ -187,12 +93,12 @@ def _layouts(path: Path, source: Source, book: Book) -> tuple[dict[str, Layout],
     leaves open."""
     tables: dict[str, Layout] = {}
     refused: dict[str, ThermodataError] = {}
-    for sheet, rows in book.sheets.items():
+    for sheet, cells in book.sheets.items():
         where = f"{path.name} sheet '{sheet}'"
         try:
             if not (source.table or {}).get("time"):
-                refuse_sideways(rows, where)
-            tables[sheet] = find_layout(rows[:500], source.table, where)
+                refuse_sideways(cells.rows, where)
+            tables[sheet] = find_layout(cells.rows[:500], source.table, where)
         except ThermodataError as error:
             refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
     # a list of numbers may be no recording; a time without its unit is one
@@ -211,8 +117,7 @@ def _streams(
     several = len(layouts) > 1
     for sheet, layout in layouts.items():
         where = f"{path.name} sheet '{sheet}'" if several else path.name
-        rows, percent = book.sheets[sheet], book.percent.get(sheet, Counter[int]())
-        tables[sheet] = Table(sheet, rows, layout, where, source, percent, start_above, book.from_1904)
+        tables[sheet] = Table(book.sheets[sheet], layout, where, source, start_above)
         found[sheet] = list(tables[sheet].streams(sheet if several else None))
     return tables, found
 
