@@ -8,6 +8,7 @@ from typing import NamedTuple
 from xml.parsers import expat
 
 from thermodata.reader.text.cells.number import to_float
+from thermodata_reader_cnc.mtconnect.time_series import Report
 
 _MOST_TEXT = 1 << 24  # characters of one value
 _DEEP = 256
@@ -23,6 +24,12 @@ class Observation(NamedTuple):
     series: bool = False
     rate_hz: float | None = None
     samples: int | None = None
+
+    def report(self, file: str) -> Report:
+        """Of one that is a time series."""
+        return Report(
+            self.time, self.key, self.rate_hz, self.value, self.sequence, f"{file} sequence", count=self.samples
+        )
 
 
 @dataclass(slots=True)

@@ -14,7 +14,7 @@ from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.mtconnect import time_series
-from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, Series, is_time, looks_like_items
+from thermodata_reader_cnc.mtconnect.shdr_lines import Lines, is_time, looks_like_items
 from thermodata_reader_cnc.mtconnect.shdr_parts import ALIKE, names_columns, numbered_form, time_form, units_behind
 
 EXAMPLE = b"2009-06-15T00:00:00.000000|power|ON\n2009-06-15T00:00:00.010000|Xabs|1.5\n"
@@ -70,7 +70,7 @@ class _Look:
                 if pieces and "|" not in line[:40]:
                     continue
                 for event in reader.events(line, number):
-                    if isinstance(event, Series):
+                    if isinstance(event, time_series.Report):
                         self.series.add(event.key)
                     else:
                         yield event
@@ -136,13 +136,11 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             elif isinstance(event, Event):
                 yield from table.add(event)
             elif event.key in look.series and not look.relative:
-                report = time_series.rows(
-                    event.key, event.time, event.rate_hz, event.values, None, table.clock, event.part, event.at
-                )
-                yield from losses.some(event.key, report) if isinstance(report, Loss) else (report,)
+                read = time_series.rows(event, table.clock)
+                yield from losses.some(event.key, read) if isinstance(read, Loss) else (read,)
             else:
                 reason = "a time series that the first look did not meet, or without a date; not read"
-                yield from losses.some(event.key, Loss(f"{event.part} {event.at}", reason=f"'{event.key}': {reason}"))
+                yield from losses.some(event.key, Loss(event.where, reason=f"'{event.key}': {reason}"))
     yield from table.flush()
     yield from reader.end()
     yield from losses.rest(path.name)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from thermodata.plugin import Loss
 from thermodata.reader.text.cells.number import to_float
@@ -19,24 +18,13 @@ from thermodata.reader.text.times import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.events import GONE, ISO, Event
+from thermodata_reader_cnc.mtconnect.time_series import Report
 from thermodata_reader_cnc.opcua.row_units import in_unit_of
 
 LEVELS = frozenset({"NORMAL", "WARNING", "FAULT", GONE})
 _FIELD = re.compile(r'"((?:\\.|[^"\\])*)"(?=\||$)|([^|]*)')
 _NAME = re.compile(r"^[^\W\d][\w.:\- ]*$")
 _UNDATED = int(Flag.CLOCK_SUSPECT)
-
-
-@dataclass(frozen=True, slots=True)
-class Series:
-    """Values of one item at a fixed rate; the time stamp is that of the last."""
-
-    time: str
-    key: str
-    rate_hz: float | None
-    values: str
-    at: int
-    part: str
 
 
 def is_time(text: str) -> bool:
@@ -77,7 +65,7 @@ class Lines:
         self.opened = 0
         self.time = ""
 
-    def events(self, line: str, number: int) -> Iterator[Event | Series | Loss]:
+    def events(self, line: str, number: int) -> Iterator[Event | Report | Loss]:
         """The events of a line. number: 0-based in the file."""
         if self.until is not None:
             if line.strip() == self.until:
@@ -107,7 +95,7 @@ class Lines:
             return
         yield from self._values(time, parts, flag, at, text)
 
-    def _values(self, time: str, parts: list[str], flag: int, at: int, text: str) -> Iterator[Event | Series | Loss]:
+    def _values(self, time: str, parts: list[str], flag: int, at: int, text: str) -> Iterator[Event | Report | Loss]:
         key, count = parts[1].strip(), len(parts)
         if not key and count in (4, 5, 6, 7) and count % 2 == 0:
             yield self._loss(at, f"a report without an item: '{text[:80]}'")
@@ -120,7 +108,7 @@ class Lines:
         if key and count == 5 and parts[2].isdigit() and len(words := parts[4].split()) == int(parts[2][:9]) and words:
             rate = to_float(parts[3])
             if (rate is not None and rate >= 0) or not parts[3].strip():
-                yield Series(time, key, rate or None, parts[4], at, self.part)
+                yield Report(time, key, rate or None, parts[4], at, self.part)
                 return
         if count == 4 and key in self.units:
             value, wrong = in_unit_of(key, parts[2], parts[3].strip(), self.units)

@@ -185,16 +185,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         elif isinstance(event, Event):
             yield from table.add(event)
         elif event.key in look.series:
-            yield time_series.rows(
-                event.key,
-                event.time,
-                event.rate_hz,
-                event.value,
-                event.samples,
-                table.clock,
-                f"{path.name} sequence",
-                event.sequence,
-            )
+            yield time_series.rows(event.report(path.name), table.clock)
         elif event.key not in told:
             told.add(event.key)
             yield Loss(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +17,24 @@ STREAM = "series "
 NOTE = "a time series' time stamp is taken as that of its last sample"
 
 
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Values of one item at a fixed rate; the time stamp is that of the last. count: the samples that it announces;
+    part, at: where it stands, as an event's."""
+
+    time: str
+    key: str
+    rate_hz: float | None
+    values: str
+    at: int
+    part: str
+    count: int | None = None
+
+    @property
+    def where(self) -> str:
+        return f"{self.part} {self.at}"
+
+
 def stream(key: str) -> str:
     """The stream of an item's series."""
     return STREAM + key
@@ -26,20 +45,18 @@ def signal(key: str, properties: dict[str, str] | None = None) -> Signal:
     return Signal(key, stream(key), None, "float64", None, properties or {})
 
 
-def rows(
-    key: str, time: str, rate_hz: float | None, text: str, count: int | None, clock: LocalClock, part: str, at: int
-) -> Block | Loss:
-    """The rows of one report. count: the samples that it announces; part, at: where it stands, as an event's."""
-    words = [] if text.strip() == GONE else text.split()
-    where = f"{part} {at}"
-    last = int(to_utc([time], clock)[0])
+def rows(report: Report, clock: LocalClock) -> Block | Loss:
+    """The rows of one report, a value each; what is lost where it does not read."""
+    key, where, rate_hz, count = report.key, report.where, report.rate_hz, report.count
+    words = [] if report.values.strip() == GONE else report.values.split()
+    last = int(to_utc([report.time], clock)[0])
     if rate_hz is None or not 1e-9 < rate_hz <= 1e9:
         return Loss(where, reason=f"'{key}': a time series without a sample rate is not read")
     if last == NAT:
-        return Loss(where, reason=f"'{key}': the time '{time[:40]}' does not read")
+        return Loss(where, reason=f"'{key}': the time '{report.time[:40]}' does not read")
     read = values_of(words, "float64")
     if read.odd:
-        return Loss(where, reason=f"'{key}': expected numbers, got '{text[:60]}'")
+        return Loss(where, reason=f"'{key}': expected numbers, got '{report.values[:60]}'")
     values = read.values
     if count is not None and count != values.size and (values.size or count):
         return Loss(
@@ -49,7 +66,7 @@ def rows(
     if values.size and (back[0] > 4e9 or abs(last - back[0] * 1e9) > 9e18):
         return Loss(where, reason=f"'{key}': a time series of {back[0]:g} s is not read")
     t_ns = last - np.round(back * 1e9).astype(np.int64)
-    return Block(stream(key), t_ns, {key: values}, None, np.full(values.size, at, np.int64))
+    return Block(stream(key), t_ns, {key: values}, None, np.full(values.size, report.at, np.int64))
 
 
 def sample_of(items: Iterable[Block | Loss], name: str, row: int) -> tuple[int, str] | None:
