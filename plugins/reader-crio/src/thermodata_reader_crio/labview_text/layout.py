@@ -91,7 +91,7 @@ def find_layout(lines: Sequence[str], name: str, wanted: Wanted) -> Layout:
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
         if found is not None:
-            return _made(lines, delimiter, *found, name, wanted)
+            return _made(found, name, wanted)
     raise FormatError(
         "no rows of numbers",
         where=name,
@@ -110,8 +110,40 @@ def _reads(cell: str, decimal: str) -> bool:
     return is_empty(cell) or is_overload(cell) or (to_float(cell, decimal) is not None and to_bool(cell) is None)
 
 
-def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int, str, bool] | None:
-    """(line of the first row, columns of numbers, decimal mark, whether free text follows them)."""
+@dataclass(frozen=True)
+class _Rows:
+    """Where rows of numbers stand among lines that are taken apart. first: the line of the first; columns: of numbers;
+    text: whether free text follows these."""
+
+    lines: Sequence[str]
+    cells: list[list[str]]
+    delimiter: str
+    first: int
+    columns: int
+    decimal: str
+    text: bool
+
+    def values(self) -> Float2D:
+        """The numbers of all whole rows; shape (rows, columns), NaN where there is none."""
+        rows = [row for row in self.cells[self.first :] if len(row) in (self.columns, self.columns + self.text)]
+        numbers = [[to_float(c, self.decimal) for c in row[: self.columns]] for row in rows]
+        return np.array([[np.nan if v is None else v for v in row] for row in numbers], np.float64)
+
+    def heads(self) -> list[list[str]]:
+        """The lines above that may name all columns."""
+        return [row for row in self.cells[: self.first] if len(row) >= self.columns and any(row)]
+
+    def doubtful(self) -> tuple[int, ...]:
+        """Numbers of lines above that hold numbers themselves."""
+        return tuple(
+            i + 1
+            for i, (line, row) in enumerate(zip(self.lines, self.cells[: self.first], strict=False))
+            if "\0" in line or any(to_float(c, self.decimal) is not None for c in row[1:])
+        )
+
+
+def _rows(lines: Sequence[str], delimiter: str) -> _Rows | None:
+    """Rows of numbers between this delimiter, where the lines are mostly such."""
     cells = [_split(line, delimiter) for line in lines]
     counts = Counter(len(row) for row in cells[len(cells) // 2 :] if any(row))
     if not counts:
@@ -130,58 +162,51 @@ def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int, str, bool] | 
     odd = sum(not _reads(c, decimal) for c in last)
     text = odd * 2 > sum(map(bool, last)) or not any(last)
     columns = width - 1 if text else width
-    first = next(
-        (
-            i
-            for i, row in enumerate(cells)
-            if len(row) in (columns, columns + text)
-            and all(_reads(c, decimal) for c in row[:columns])
-            and any(row[:columns])
-        ),
-        None,
-    )
+
+    def reads(row: list[str]) -> bool:
+        return len(row) in (columns, columns + text) and all(_reads(c, decimal) for c in row[:columns])
+
+    first = next((i for i, row in enumerate(cells) if reads(row) and any(row[:columns])), None)
     if columns < 2 or first is None or first > _MOST_HEADER:
         return None
-    good = sum(
-        all(_reads(c, decimal) for c in row[:columns]) for row in cells[first:] if len(row) in (columns, columns + text)
-    )
+    good = sum(map(reads, cells[first:]))
     many = sum(any(row) for row in cells[first:])
-    return (first, columns, decimal, text) if good >= max(_FEWEST_ROWS, 0.6 * many) else None
+    if good < max(_FEWEST_ROWS, 0.6 * many):
+        return None
+    return _Rows(lines, cells, delimiter, first, columns, decimal, text)
 
 
-def _made(
-    lines: Sequence[str], delimiter: str, first: int, columns: int, decimal: str, text: bool, name: str, wanted: Wanted
-) -> Layout:
-    heads = [row for line in lines[:first] if len(row := _split(line, delimiter)) >= columns and any(row)]
+def _made(rows: _Rows, name: str, wanted: Wanted) -> Layout:
+    """With the names, units and time of the columns. name: of the file."""
+    heads = rows.heads()
     units_row = len(heads) > 1 and _is_units(heads[-1])
     titles = heads[-2] if units_row else heads[-1] if heads else []
     names, units = [], []
-    for i in range(columns):
+    for i in range(rows.columns):
         title, unit = split_unit(titles[i]) if i < len(titles) else ("", None)
         below = heads[-1][i] if units_row else None
         names.append(title or f"column {i + 1}")
         units.append(below or unit)
-    rows = [_split(line, delimiter) for line in lines[first:]]
-    values = np.array(
-        [
-            [v if (v := to_float(c, decimal)) is not None else np.nan for c in r[:columns]]
-            for r in rows
-            if len(r) in (columns, columns + text)
-        ],
-        np.float64,
+    clock, time, seconds = _clock(rows.values(), names, units, wanted, name, bool(heads))
+    return Layout(
+        rows.delimiter,
+        rows.decimal,
+        rows.first,
+        frozenset(line.strip() for line in rows.lines[: rows.first]),
+        _unique(names),
+        tuple(units),
+        clock,
+        time,
+        _name_of_text(titles, names) if rows.text else None,
+        rows.doubtful(),
+        seconds,
     )
-    clock, time, seconds = _clock(values, names, units, wanted, name, bool(heads))
-    free = None
-    if text:
-        title = titles[columns] if columns < len(titles) and titles[columns] else "Comment"
-        free = title if title not in names else f"{title} (text)"
-    header = frozenset(line.strip() for line in lines[:first])
-    doubtful = tuple(
-        i + 1
-        for i, line in enumerate(lines[:first])
-        if "\0" in line or any(to_float(c, decimal) is not None for c in _split(line, delimiter)[1:])
-    )
-    return Layout(delimiter, decimal, first, header, _unique(names), tuple(units), clock, time, free, doubtful, seconds)
+
+
+def _name_of_text(titles: Sequence[str], names: Sequence[str]) -> str:
+    """What a last column of free text is called. names: of the columns before it."""
+    title = titles[len(names)] if len(names) < len(titles) and titles[len(names)] else "Comment"
+    return title if title not in names else f"{title} (text)"
 
 
 def _is_units(row: list[str]) -> bool:
