@@ -18,7 +18,7 @@ from thermodata.diagnosis.unlogged.goes_with import (
 )
 from thermodata.diagnosis.unlogged.missing_heat import Course, MissingHeat
 from thermodata.diagnosis.unlogged.unexplained import characterise
-from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect, doubt_of_heat, first, nearest
+from thermodata.diagnosis.verdict.suspect import Doubt, First, Supposed, Suspect, doubt_of_heat, first, nearest
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.grid.dataset import ChannelInfo, TestData
@@ -248,7 +248,7 @@ def said(
 ) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
     tests = [c.test for c in asked.courses]
-    return where(asked, found, tests[:1], tests[1:2], suspect, first, warm, doubt)
+    return where(asked, found, tests[:1], tests[1:2], Supposed(suspect, first, doubt), warm)
 
 
 WITH_SPINDLE = Companion(CHANNELS["n"], "with", 0.96, 0.04, None)
@@ -441,7 +441,8 @@ def test_a_channel_of_what_is_likely_it_is_not_ruled_out() -> None:
     parts = [Parts(d - d.mean() + 0.1 * rng.standard_normal(480), values=values, channels=CHANNELS) for _ in range(4)]
     asked = problem(*parts, noise=0.1)
     alone, likely = (
-        characterise(asked, [], s).heat for s in (None, Suspect((candidate(channels=("n",)),), "it is likely"))
+        characterise(asked, [], Supposed(s)).heat
+        for s in (None, Suspect((candidate(channels=("n",)),), "it is likely"))
     )
     assert alone is not None
     assert likely is not None
@@ -456,7 +457,7 @@ def test_a_residual_without_a_course_has_no_missing_heat() -> None:
 @pytest.mark.parametrize(("doubt", "told"), [("none", True), ("some", True), ("all", False)])
 def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: bool) -> None:
     wave = lag(12.0 * np.repeat([0.0, 1.0, 0.0, 1.0, 1.0, 0.0], 80), 2400.0, STEP_S)
-    found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], doubt=doubt)
+    found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], Supposed(doubt=doubt))
     assert (found.heat is not None) is told
     where = found.heat.where if found.heat is not None else ""
     assert ("machines that lack nothing leave as much" in where) is (doubt == "some")

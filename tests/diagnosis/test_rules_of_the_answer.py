@@ -345,7 +345,7 @@ class TestAnswer:
         seen: list[Suspect | None] = []
 
         def characterise(*asked: Any) -> Unknown:
-            seen.append(asked[2])
+            seen.append(asked[2].suspect)
             return Unknown(time_constants_h=[], hours_of_day=[], states=[])
 
         monkeypatch.setattr(in_contract, "characterise", characterise)

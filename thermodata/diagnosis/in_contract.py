@@ -27,7 +27,7 @@ from thermodata.diagnosis.tell.told import told_of
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, suspect
+from thermodata.diagnosis.verdict.suspect import Supposed, doubt_of_heat, first, nearest, suspect
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
@@ -103,14 +103,12 @@ def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded, unread
     plausible = first(head, problem)
     left = investigation.selection.left if investigation.selection is not None else np.inf
     known = found.on_locked or likely is not None or plausible is not None
-    return characterise(
-        problem,
-        investigation.spots,
+    supposed = Supposed(
         likely,
         plausible or nearest([s for s, _ in shown[:1] if s is head], problem),
         doubt_of_heat(left, investigation.measure, known=known),
-        unread,
     )
+    return characterise(problem, investigation.spots, supposed, unread)
 
 
 def _put_right(case: Case, found: Concluded) -> PutRight | None:

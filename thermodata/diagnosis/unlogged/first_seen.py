@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
-from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
+from thermodata.diagnosis.verdict.suspect import NOTHING_SUPPOSED, Doubt, First, Supposed, Suspect
 from thermodata.schema.words.sentences import in_percent
 from thermodata.view.grid.dataset import TestData
 
@@ -31,16 +31,14 @@ def where(
     found: Sequence[Companion],
     strong: Sequence[TestData],
     weak: Sequence[TestData],
-    suspect: Suspect | None = None,
-    first: First | None = None,
+    supposed: Supposed = NOTHING_SUPPOSED,
     warm: tuple[str, str] | None = None,
-    doubt: Doubt = "none",
 ) -> str:
-    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
-    first: what ranks first, where it is plausible or nearest to it. warm: the key of the test at whose warm start the
-    model fails most. doubt: whether any heat is missing."""
+    """A sentence or two; what the data can't say is said to be so. strong, weak: the tests in which it is strongest,
+    and absent; warm: the key of the test at whose warm start the model fails most."""
+    suspect, first = supposed.suspect, supposed.first
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
-    said = [*_doubted(heat, doubt), told]
+    said = [*_doubted(heat, supposed.doubt), told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
     if is_warm:
         said.append(_began_warm(strongest))

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
-from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
+from thermodata.diagnosis.verdict.suspect import NOTHING_SUPPOSED, Supposed
 from thermodata.modelling.terms.rms import rms
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import WeakSpot
@@ -21,36 +21,32 @@ DIGITS = 4  # of a course, which is many numbers
 def characterise(
     problem: Problem,
     spots: Sequence[WeakSpot],
-    suspect: Suspect | None = None,
-    first: First | None = None,
-    doubt: Doubt = "none",
+    supposed: Supposed = NOTHING_SUPPOSED,
     unread: float | None = None,
 ) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
-    missing heat itself, estimated, unless nobody knows of any. suspect: what is likely it. first: what ranks first,
-    where it is plausible or nearest to it. doubt: whether any heat is missing. unread: how probable it is that no
-    channel reads it (`not_logged`)."""
+    missing heat itself, estimated, unless nobody knows of any. unread: how probable it is that no channel reads it
+    (`not_logged`)."""
+    warm = spots[0] if spots and spots[0].after_warm_start else None
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=None
-        if doubt == "all"
-        else _heat(problem, suspect, first, spots[0] if spots and spots[0].after_warm_start else None, doubt),
+        heat=None if supposed.doubt == "all" else _heat(problem, supposed, warm),
         not_logged=unread,
     )
 
 
-def _heat(
-    problem: Problem, suspect: Suspect | None, first: First | None, warm: WeakSpot | None, doubt: Doubt
-) -> MissingHeat | None:
+def _heat(problem: Problem, supposed: Supposed, warm: WeakSpot | None) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
     found = goes_with.companions(heat, problem.response)
-    likely = suspect.channels if suspect else first.cause.channels if first else ()
     strong, weak = goes_with.strong_and_weak_tests(heat)
     low, high = heat.tau_range_s
+    # the least alike first; a channel of what is likely it is not ruled out
+    ruled_out = [c for c in reversed(found) if c.verdict == "not" and c.info.name not in supposed.channels]
+    began_warm = None if warm is None else (warm.campaign, warm.test)
     return MissingHeat(
         time_constant_h=_short(heat.tau_s / 3600),
         time_constant_low_h=None if low <= TAUS_S[0] else _short(low / 3600),
@@ -63,10 +59,8 @@ def _heat(
         strong_tests=[first_seen.name_of(t, heat) for t in strong],
         weak_tests=[first_seen.name_of(t, heat) for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
-        goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
-        where=first_seen.where(
-            heat, found, strong, weak, suspect, first, (warm.campaign, warm.test) if warm is not None else None, doubt
-        ),
+        goes_not_with=[_companion(c) for c in ruled_out],
+        where=first_seen.where(heat, found, strong, weak, supposed, began_warm),
         courses=[_course(c) for c in heat.courses],
     )
 

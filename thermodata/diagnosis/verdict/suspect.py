@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -51,6 +51,24 @@ class First:
     probability: float | None
     acts_in: frozenset[tuple[str, str]]
     error: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Supposed:
+    """What an answer supposes of heat that nobody logged. suspect: what is likely it, and is logged; first: what ranks
+    first, where it is plausible or nearest to it; doubt: whether any heat is missing."""
+
+    suspect: Suspect | None = None
+    first: First | None = None
+    doubt: Doubt = "none"
+
+    @property
+    def channels(self) -> Collection[str]:
+        """Those of what is likely it, else of what ranks first."""
+        return self.suspect.channels if self.suspect else self.first.cause.channels if self.first else ()
+
+
+NOTHING_SUPPOSED = Supposed()
 
 
 def first(head: Scored | None, problem: Problem) -> First | None:

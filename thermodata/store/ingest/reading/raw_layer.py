@@ -20,7 +20,7 @@ from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.resolve import file_inside
 from thermodata.store.ingest.reading.side_by_side import read_side_by_side, workers_for
 from thermodata.store.ingest.reading.worker import Task
-from thermodata.store.ingest.told.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
+from thermodata.store.ingest.told.losses import FileRead, Losses, Said, add_unread, loss_row, tell, unread_signals
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
 from thermodata.store.raw.streams import declared, raw_key, read_raw
@@ -200,7 +200,7 @@ class RawIngest:
                     raise write_error(Path(error.filename), error) from error
                 self.passing = True  # the next time it may be read
                 reason = "; ".join(str(error).splitlines())
-                add_unread(self.losses, reason, test=test, source=source, file=path)
+                add_unread(self.losses, reason, FileRead(test, source, path))
                 raws = self._former(path, before)
                 if not raws:
                     self.files.done(path)
@@ -210,7 +210,8 @@ class RawIngest:
         self._told |= fresh
         if any(r.losses for r in raws):
             unread, every = unread_signals(self.files.campaign, source, raws), list(self.said.values())
-            tell(raws, unread, self.said[self._test], every, again=not fresh, test=test, source=source, file=path)
+            read = FileRead(test, source, path)
+            tell(raws, unread, self.said[self._test], every, read, again=not fresh)
         return raws
 
     def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:

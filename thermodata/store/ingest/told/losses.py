@@ -24,6 +24,15 @@ class Said:
     notes: list[str] = field(default_factory=list)
 
 
+@dataclass(frozen=True, slots=True)
+class FileRead:
+    """A file as it is read once: for which test, by which source."""
+
+    test: str
+    source: str
+    file: str
+
+
 def loss_row(
     reason: str,
     *,
@@ -48,13 +57,13 @@ def loss_row(
     }
 
 
-def add_unread(losses: Losses, reason: str, *, test: str, source: str, file: str) -> None:
+def add_unread(losses: Losses, reason: str, read: FileRead) -> None:
     """A file that a source can't read: one loss of all sources that fail alike."""
-    before = _by_place(losses).get((file, None, reason))
+    before = _by_place(losses).get((read.file, None, reason))
     if before is None:
-        losses.append(loss_row(reason, test=test, source=source, file=file))
-    elif source not in before["sources"]:
-        before["sources"].append(source)
+        losses.append(loss_row(reason, test=read.test, source=read.source, file=read.file))
+    elif read.source not in before["sources"]:
+        before["sources"].append(read.source)
 
 
 def told_once(losses: Iterable[dict[str, Any]]) -> Losses:
@@ -101,11 +110,9 @@ def tell(
     unread: Collection[str],
     own: Said,
     every: Iterable[Said],
+    read: FileRead,
     *,
     again: bool,
-    test: str,
-    source: str,
-    file: str,
 ) -> None:
     """Says of a test what a file lost. unread: signals that the source's channels do not read; own: of the test; every:
     of all tests; again: the file was told of before, and what its other sources did not miss may be missed now. A loss
@@ -117,18 +124,19 @@ def tell(
     for loss in (x for r in raws for x in r.losses):
         note = f"{loss.where}: {loss.reason}; no channel reads that column"
         noted = [said for said in every if note in said.notes]
-        before = told.get((file, loss.where, loss.reason))
+        before = told.get((read.file, loss.where, loss.reason))
         if loss.signal in unread:
             if not again and before is None and own not in noted:
                 own.notes.append(note)
         elif before is not None:
-            if source not in before["sources"]:
-                before["sources"].append(source)
+            if read.source not in before["sources"]:
+                before["sources"].append(read.source)
         elif noted or not again:
             for said in noted:
                 said.notes.remove(note)
-            own.losses.append(loss_row(loss.reason, test=test, source=source, file=file, loss=loss))
+            row = loss_row(loss.reason, test=read.test, source=read.source, file=read.file, loss=loss)
+            own.losses.append(row)
         else:
-            of_others = (rows.get((file, loss.where, loss.reason)) for rows in of_all)
-            for row in (row for row in of_others if row is not None and test not in row["tests"]):
-                row["tests"].append(test)
+            of_others = (rows.get((read.file, loss.where, loss.reason)) for rows in of_all)
+            for row in (row for row in of_others if row is not None and read.test not in row["tests"]):
+                row["tests"].append(read.test)
