@@ -62,41 +62,52 @@ class Relating:
         return values, self.related.qualities.flagged(flags, values)
 
 
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """Columns on one time, or their first rows. values: shape (n,) each; empty: cells that hold nothing, of the columns
+    that have any; t_ns: times of rows [ns], NAT where there is none; measured: names of columns with a unit."""
+
+    values: Mapping[str, Array]
+    empty: Mapping[str, Bool1D]
+    t_ns: Int1D
+    measured: Collection[str] = ()
+
+    def cells(self, name: str, values: Array) -> list[str]:
+        """What the first cells of a column hold, as text. values: of these."""
+        return _cells(values, self.empty.get(name))
+
+
 def related(
     said: Mapping[str, Any] | None,
-    values: Mapping[str, Array],
-    empty: Mapping[str, Bool1D],
-    t_ns: Int1D,
+    columns: Columns,
     where: str,
     *,
     told_by_cells: bool = True,
     beyond: Collection[str] = (),
-    measured: Collection[str] = (),
 ) -> Related:
-    """By the first rows of columns on one time. values: shape (n,) each; empty: cells that hold nothing, of the columns
-    that have any; told_by_cells: False where only what is declared stands; beyond: names of other streams of the file,
-    which may be declared as well; measured: names of columns with a unit. UsageError: `declared_standing`;
-    QuestionError: `declared_zero`."""
+    """By the first rows of columns. told_by_cells: False where only what is declared stands; beyond: names of other
+    streams of the file, which may be declared as well. UsageError: `declared_standing`; QuestionError:
+    `declared_zero`."""
     said = said or {}
-    rows = rows_looked_at(len(values))
-    head = {name: v[:rows] for name, v in values.items()}
+    rows = rows_looked_at(len(columns.values))
+    head = {name: v[:rows] for name, v in columns.values.items()}
     # of a column that is called no quality its name is all that counts
-    called = {name: _cells(v, empty.get(name)) if may_be_quality(name) else [] for name, v in head.items()}
+    called = {name: columns.cells(name, v) if may_be_quality(name) else [] for name, v in head.items()}
 
     def zero_of(zero: bool | None, name: str) -> bool:
         return declared_zero(said, zero, name, where)
 
-    qualities = find_qualities(called, zero_of, measured)
+    qualities = find_qualities(called, zero_of, columns.measured)
     note = None
-    told = _declared(said.get(KEY), list(values), beyond, where)
+    told = _declared(said.get(KEY), list(columns.values), beyond, where)
     own = {name for name, _ in (*qualities.of_values.values(), *qualities.of_rows.values())}
     if told is None:
-        seen = t_ns[t_ns != NAT]
+        seen = columns.t_ns[columns.t_ns != NAT]
         told = frozenset()
         head = {name: v for name, v in head.items() if name not in own}
         backwards = seen.size > 1 and seen[-1] < seen[0]
-        if told_by_cells and not backwards and any(_has_gaps(v, empty.get(name)) for name, v in head.items()):
-            told, note = find_standing({name: _cells(v, empty.get(name)) for name, v in head.items()})
+        if told_by_cells and not backwards and any(_has_gaps(v, columns.empty.get(name)) for name, v in head.items()):
+            told, note = find_standing({name: columns.cells(name, v) for name, v in head.items()})
     told |= {own for value, (own, _) in qualities.of_values.items() if value in told}
     return Related(told, qualities, tuple(n for n in (note, *qualities.notes(called)) if n))
 

@@ -14,7 +14,7 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import QuestionError, UsageError
 from thermodata.plugin import Source
-from thermodata.reader.typed_columns import Related, related, rows_looked_at
+from thermodata.reader.typed_columns import Columns, Related, related, rows_looked_at
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load
 
@@ -122,7 +122,7 @@ def test_of_a_wide_table_fewer_rows_are_looked_at_and_no_cells_of_columns_withou
     assert [rows_looked_at(n) for n in (10, 100, 5000)] == [20_000, 4000, 2000]
     values = {f"T{k}": np.arange(20_000.0) + k for k in range(200)}
     began = time.process_time()
-    found = related({}, values, {}, np.arange(20_000), "a.parquet")
+    found = related({}, Columns(values, {}, np.arange(20_000)), "a.parquet")
     assert found == Related()
     assert time.process_time() - began < 1  # every cell as a text took ten times as long
 

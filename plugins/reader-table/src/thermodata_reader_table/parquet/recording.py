@@ -13,7 +13,7 @@ from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn
 from thermodata.reader.signals.taken_apart import TakenApart
 from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.times.zone import NAT
-from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at, unit_in_rows
+from thermodata.reader.typed_columns import Columns, Related, Relating, related, rows_looked_at, unit_in_rows
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.damage import damage_as_format_error
@@ -96,9 +96,8 @@ def of_one_series(table: Table) -> tuple[Related, tuple[UnitColumn | None, str |
     with damage_as_format_error(table.path):
         values = {name: values_of(head.column(i), dtype) for i, name, dtype in columns}
         empty = _empty(head, columns)
-    t_ns = table.stamps(rows).t_ns
-    by_cells = table.time is not None
-    told = related(table.source.table, values, empty, t_ns, table.path.name, told_by_cells=by_cells)
+    seen = Columns(values, empty, table.stamps(rows).t_ns)
+    told = related(table.source.table, seen, table.path.name, told_by_cells=table.time is not None)
     return told, unit_in_rows(values, {name: table.units[i] for i, name, _ in columns})
 
 

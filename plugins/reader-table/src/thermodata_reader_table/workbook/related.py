@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.times.zone import NAT
-from thermodata.reader.typed_columns import Related, Relating, related
+from thermodata.reader.typed_columns import Columns, Related, Relating, related
 from thermodata_reader_table.workbook.sheet import Stream
 
 
@@ -22,8 +22,8 @@ def with_related(
     values = {name: v[good] for name, v in stream.values.items()}
     empty = {name: e[good] for name, e in stream.empty.items()}
     measured = {name for name, unit in stream.units.items() if unit}
-    times = stream.times.t_ns
-    found = related(said, values, empty, times, where, told_by_cells=told_by_cells, beyond=beyond, measured=measured)
+    columns = Columns(values, empty, stream.times.t_ns, measured)
+    found = related(said, columns, where, told_by_cells=told_by_cells, beyond=beyond)
     if not (found.stands or found.qualities.of_values or found.qualities.states):
         return stream, found
     flags = {name: f[good] for name, f in stream.flags.items()}
