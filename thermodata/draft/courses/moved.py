@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,12 +20,12 @@ from thermodata.schema.words.places import is_spindle
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.tidy.rows.on_change import come_at_no_rate
 
-_DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
 _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
 _BY_ITSELF = ("fan", "pump", "chiller", "coolant", "hydraulics", "lubrication")
 _SWITCHED = 0.8  # of its largest reading: it was off as well as on
 _TURNS_RPM, _SAME = 20.0, 0.02
 _FEEDS_M_MIN = 0.05
+_MOVES_MM = 5.0
 _STAYS, _LEAST_ROWS = 0.02, 3  # of the time in which it turns, and rows: else it passes
 _FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much of the whole
 
@@ -87,14 +87,10 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
             low, high = file.sample.extents.get(key, (seen.low, seen.high))
             course = None if course is None else _read(course, said.quantity or "")
             before = found.speeds
-            _add(
-                found,
-                said.quantity,
-                said.at or "",
-                factor * max(abs(low), abs(high)),
-                factor * (high - low),
-                None if course is None else Course(course.t_ns, factor * course.values),
-            )
+            if (tells := _TELLS.get(said.quantity)) is not None:
+                scaled = None if course is None else Course(course.t_ns, factor * course.values)
+                largest, span = factor * max(abs(low), abs(high)), factor * (high - low)
+                tells(found, _Logged(said.at or "", largest, span, scaled))
             if found.speeds is not before:
                 found.implied = is_implied(said)
             if course is not None and course.t_ns.size:
@@ -142,33 +138,67 @@ def _factor(quantity: str | None, unit: str | None) -> float:
         return 1.0
 
 
-def _add(found: Moved, quantity: str | None, at: str, largest: float, span: float, course: Course | None) -> None:
-    """largest, span, course: in rpm, m/min or mm where the signal's unit is known."""
-    axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
-    if quantity == "rotational_speed":
-        found.seen = True
-        if is_spindle(at):
-            if largest > _TURNS_RPM and course is not None:
-                found.speeds = max(found.speeds, _plateaus(course), key=len)
-        elif at.startswith(("table", "rotary")):
-            found.rotary |= largest > 1
-        elif at.startswith("axis."):  # of its motor
-            found.axes |= {at.split(".")[1]} if largest > _TURNS_RPM else set()
-        elif largest > _TURNS_RPM and not at.startswith(_BY_ITSELF) and (speeds := _turns(largest, course)):
-            found.turning[at or "what has no place"] = speeds
-    elif quantity == "feed":
-        feeds = largest > _FEEDS_M_MIN
-        found.seen |= feeds or axis is not None
-        found.fed |= feeds and axis is None
-        found.axes |= {axis} if feeds and axis is not None else set()
-    elif quantity == "position" and axis:
-        found.seen = True
-        if span > 5:
-            found.axes.add(axis)
-    elif quantity == "state":
-        found.switched |= span > 0 and not at.startswith("hall")
-    elif quantity in _DRIVEN and at.startswith(_PUMPED):
-        found.switched |= span > _SWITCHED * largest
+@dataclass(frozen=True, slots=True)
+class _Logged:
+    """One signal of a test. at: its place, '' where that is not known; largest: of the sizes of its values; span: from
+    its lowest to its highest. All in rpm, m/min or mm where the signal's unit is known."""
+
+    at: str
+    largest: float
+    span: float
+    course: Course | None
+
+    @property
+    def axis(self) -> str | None:
+        """'x' of 'axis.x', and of no part of it."""
+        return self.at.split(".")[1] if self.at.startswith("axis.") and self.at.count(".") == 1 else None
+
+
+def _by_speed(found: Moved, signal: _Logged) -> None:
+    at, turns = signal.at, signal.largest > _TURNS_RPM
+    found.seen = True
+    if is_spindle(at):
+        if turns and signal.course is not None:
+            found.speeds = max(found.speeds, _plateaus(signal.course), key=len)
+    elif at.startswith(("table", "rotary")):
+        found.rotary |= signal.largest > 1
+    elif at.startswith("axis."):  # of its motor
+        found.axes |= {at.split(".")[1]} if turns else set()
+    elif turns and not at.startswith(_BY_ITSELF) and (speeds := _turns(signal.largest, signal.course)):
+        found.turning[at or "what has no place"] = speeds
+
+
+def _by_feed(found: Moved, signal: _Logged) -> None:
+    feeds = signal.largest > _FEEDS_M_MIN
+    found.seen |= feeds or signal.axis is not None
+    found.fed |= feeds and signal.axis is None
+    found.axes |= {signal.axis} if feeds and signal.axis is not None else set()
+
+
+def _by_position(found: Moved, signal: _Logged) -> None:
+    if signal.axis is None:
+        return
+    found.seen = True
+    if signal.span > _MOVES_MM:
+        found.axes.add(signal.axis)
+
+
+def _by_state(found: Moved, signal: _Logged) -> None:
+    found.switched |= signal.span > 0 and not signal.at.startswith("hall")
+
+
+def _by_what_is_driven(found: Moved, signal: _Logged) -> None:
+    found.switched |= signal.at.startswith(_PUMPED) and signal.span > _SWITCHED * signal.largest
+
+
+_TELLS: dict[str | None, Callable[[Moved, _Logged], None]] = {
+    "rotational_speed": _by_speed,
+    "feed": _by_feed,
+    "position": _by_position,
+    "state": _by_state,
+    **dict.fromkeys(("flow", "pressure", "power", "load", "current"), _by_what_is_driven),
+}
+"""What each quantity tells of a test; the others tell nothing."""
 
 
 def _turns(largest: float, course: Course | None) -> tuple[float, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 from thermodata.draft.signals import units
@@ -67,34 +68,65 @@ def hottest_c(text: str) -> float:
 def implausible(found: Guess, text: str, values: Values) -> Guess:
     """With a question where a unit that the file says makes readings of it that no machine gives: a header that was
     typed, and is wrong. text: the words of its name."""
-    if found.unit is None or values.n == 0:
+    asks = _ASKS.get(found.quantity)
+    if found.unit is None or values.n == 0 or asks is None:
         return found
-    asked = None
-    if found.quantity in SHARED and normal_unit(found.unit) == "per_unit":
-        top = max(-values.low, values.high)
-        asked = f'unit: {found.unit}, or "%"? it goes up to {top:.3g}' if top > MOST_OF_ONE else None
-    elif found.quantity in _MOST:
-        most, unit, others = _MOST[found.quantity]
-        top = max(-values.low, values.high) * units.factor_to(found.unit, unit)
-        if top > most:
-            other = "" if normal_unit(found.unit) == normal_unit(others) else f", or {others}"
-            asked = f"unit: {found.unit}{other}? it goes up to {top:.3g} {unit}, and no machine tool's does"
-    elif found.quantity == "position" and (mm := round(units.factor_to(found.unit, "mm"), 6)) in _INCHES_MM:
-        top = max(-values.low, values.high) * mm
-        asked = f"unit: {found.unit}, or mm? it goes up to {top / 1000:.3g} m" if top > _FURTHEST_MM else None
-    elif found.quantity == "displacement":
-        span = (values.high - values.low) * units.factor_to(found.unit, "um")
-        if span > _FURTHEST_UM:
-            asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
-    elif found.quantity == "temperature" and units.kelvins(found.unit) is None:
-        factor, offset = units.to_degc(found.unit)
-        least = factor * least_reading(values) + offset
-        coldest, warmest = _COLD_K if is_fired(text) else (_COLDEST_K, _HOTTEST_K)
-        if coldest <= least <= warmest and factor * values.median + offset <= _HOTTEST_K:
-            asked = f"unit: K, or {found.unit}? no reading is below {least:.3g} degC"
-        elif (_NO_REST_C if _stands_at(found, _COOL) else _NO_PART_C) <= least <= _COLDEST_K and not is_fired(text):
-            asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
+    asked = asks(found, found.unit, text, values)
     return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
+
+
+def _of_a_share(_found: Guess, unit: str, _text: str, values: Values) -> str | None:
+    top = max(-values.low, values.high)
+    if normal_unit(unit) != "per_unit" or top <= MOST_OF_ONE:
+        return None
+    return f'unit: {unit}, or "%"? it goes up to {top:.3g}'
+
+
+def _of_a_drive(found: Guess, unit: str, _text: str, values: Values) -> str | None:
+    most, in_unit, others = _MOST[found.quantity or ""]
+    top = max(-values.low, values.high) * units.factor_to(unit, in_unit)
+    if top <= most:
+        return None
+    other = "" if normal_unit(unit) == normal_unit(others) else f", or {others}"
+    return f"unit: {unit}{other}? it goes up to {top:.3g} {in_unit}, and no machine tool's does"
+
+
+def _of_a_position(_found: Guess, unit: str, _text: str, values: Values) -> str | None:
+    mm = round(units.factor_to(unit, "mm"), 6)
+    top = max(-values.low, values.high) * mm
+    if mm not in _INCHES_MM or top <= _FURTHEST_MM:
+        return None
+    return f"unit: {unit}, or mm? it goes up to {top / 1000:.3g} m"
+
+
+def _of_a_displacement(_found: Guess, unit: str, _text: str, values: Values) -> str | None:
+    span = (values.high - values.low) * units.factor_to(unit, "um")
+    if span <= _FURTHEST_UM:
+        return None
+    return f"unit: {unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
+
+
+def _of_a_temperature(found: Guess, unit: str, text: str, values: Values) -> str | None:
+    if units.kelvins(unit) is not None:
+        return None
+    factor, offset = units.to_degc(unit)
+    least = factor * least_reading(values) + offset
+    coldest, warmest = _COLD_K if is_fired(text) else (_COLDEST_K, _HOTTEST_K)
+    if coldest <= least <= warmest and factor * values.median + offset <= _HOTTEST_K:
+        return f"unit: K, or {unit}? no reading is below {least:.3g} degC"
+    if (_NO_REST_C if _stands_at(found, _COOL) else _NO_PART_C) <= least <= _COLDEST_K and not is_fired(text):
+        return f"unit: {unit}? no reading is below {least:.3g} degC"
+    return None
+
+
+_ASKS: dict[str | None, Callable[[Guess, str, str, Values], str | None]] = {
+    **dict.fromkeys(SHARED, _of_a_share),
+    **dict.fromkeys(_MOST, _of_a_drive),
+    "position": _of_a_position,
+    "displacement": _of_a_displacement,
+    "temperature": _of_a_temperature,
+}
+"""What to ask of a quantity in the unit of its file, where that is likely another."""
 
 
 def _stands_at(found: Guess, places: tuple[str, ...]) -> bool:
