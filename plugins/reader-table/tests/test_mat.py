@@ -12,8 +12,8 @@ import pytest
 import scipy.io
 from scipy.io import matlab
 from thermodata_reader_table import Reader
-from thermodata_reader_table.mat import version5
 from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text
+from thermodata_reader_table.mat.version5 import variables as version5
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source

@@ -22,7 +22,7 @@ from thermodata.reader.text.preamble.begin import (
 from thermodata.reader.text.preamble.head_start import head_start
 from thermodata.reader.text.preamble.head_words import Says
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
-from thermodata_reader_table.mat.stream_plan import TimeVector
+from thermodata_reader_table.mat.planned.stream_plan import TimeVector
 from thermodata_reader_table.mat.tree import Text, Tree
 
 _BESIDE = "a text beside the signals"

@@ -22,12 +22,12 @@ def opened(path: Path) -> Iterator[Tree]:
         start = file.read(1024)
     if is_hdf5(start):
         try:
-            from thermodata_reader_table.mat import hdf5
+            from thermodata_reader_table.mat.hdf5 import variables as hdf5
         except ImportError:
             raise FormatError("MAT 7.3 (HDF5) needs h5py", where=path.name, hint="pip install h5py") from None
         with hdf5.opened(path) as tree:
             yield tree
         return
-    from thermodata_reader_table.mat import version5
+    from thermodata_reader_table.mat.version5 import variables as version5
 
     yield version5.read(path)

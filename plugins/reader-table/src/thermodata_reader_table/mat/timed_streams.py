@@ -18,8 +18,8 @@ from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.times import time_units
 from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata_reader_table.mat.begun_beside import Begun, begun_beside
-from thermodata_reader_table.mat.planner import plan_streams
-from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
+from thermodata_reader_table.mat.planned.planner import plan_streams
+from thermodata_reader_table.mat.planned.stream_plan import Column, Stream, TimeVector
 from thermodata_reader_table.mat.tree import Tree
 
 LOOK = 2000  # rows by which a clock is judged

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import replace
 
-from thermodata_reader_table.mat.stream_plan import Listed, Plan, Scope, upwards
+from thermodata_reader_table.mat.planned.stream_plan import Listed, Plan, Scope, upwards
 
 
 def settle_lists(plan: Plan, scope: Scope) -> None:

@@ -20,7 +20,7 @@ from thermodata_reader_table.mat.tree import (
     Text,
     line,
 )
-from thermodata_reader_table.mat.version5_elements import MATRIX, UTF8, UTF16, UTF32, DamagedError, Element, element_at
+from thermodata_reader_table.mat.version5.elements import MATRIX, UTF8, UTF16, UTF32, DamagedError, Element, element_at
 
 _STORED = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
 _CLASS = {

@@ -9,14 +9,14 @@ from typing import Any
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.preamble.scale_words import spellings
-from thermodata_reader_table.mat.date_vectors import take_date_vectors, take_weeks
-from thermodata_reader_table.mat.described_by import settle_lists
-from thermodata_reader_table.mat.matrices import sort_matrices
-from thermodata_reader_table.mat.signal_structs import as_record
-from thermodata_reader_table.mat.stream_plan import MOST_SIGNALS, Column, Plan, Scope
-from thermodata_reader_table.mat.time_assignment import assign_columns, assign_record
+from thermodata_reader_table.mat.planned.date_vectors import take_date_vectors, take_weeks
+from thermodata_reader_table.mat.planned.described_by import settle_lists
+from thermodata_reader_table.mat.planned.matrices import sort_matrices
+from thermodata_reader_table.mat.planned.signal_structs import as_record
+from thermodata_reader_table.mat.planned.stream_plan import MOST_SIGNALS, Column, Plan, Scope
+from thermodata_reader_table.mat.planned.time_assignment import assign_columns, assign_record
+from thermodata_reader_table.mat.planned.variable_roles import lose_object, sort_variable
 from thermodata_reader_table.mat.tree import Node, Numbers, Odd, Struct, Text, Tree
-from thermodata_reader_table.mat.variable_roles import lose_object, sort_variable
 
 
 def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:

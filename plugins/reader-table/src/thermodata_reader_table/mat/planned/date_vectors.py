@@ -7,7 +7,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.text.times.gps_weeks import find_weeks, seconds_of_weeks
-from thermodata_reader_table.mat.stream_plan import LOOK, Plan, Scope, TimeVector, upwards
+from thermodata_reader_table.mat.planned.stream_plan import LOOK, Plan, Scope, TimeVector, upwards
 from thermodata_reader_table.mat.tree import Numbers
 
 _RANGES = ((1900, 2200), (1, 12), (1, 31), (0, 23), (0, 59), (0, 60))

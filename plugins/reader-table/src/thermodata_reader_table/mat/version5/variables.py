@@ -15,7 +15,7 @@ from pathlib import Path
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
 from thermodata_reader_table.mat.tree import Node, Tree
-from thermodata_reader_table.mat.version5_elements import (
+from thermodata_reader_table.mat.version5.elements import (
     MATRIX,
     MAX_UNPACKED,
     PACKED,
@@ -24,7 +24,7 @@ from thermodata_reader_table.mat.version5_elements import (
     element_at,
     unpacked,
 )
-from thermodata_reader_table.mat.version5_matrices import MatrixParser
+from thermodata_reader_table.mat.version5.matrices import MatrixParser
 
 
 def read(path: Path) -> Tree:

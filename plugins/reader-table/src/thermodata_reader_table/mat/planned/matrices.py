@@ -7,9 +7,9 @@ from functools import partial
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
-from thermodata_reader_table.mat import names as say
-from thermodata_reader_table.mat.described_by import fitting, scales_of, unit_of
-from thermodata_reader_table.mat.stream_plan import (
+from thermodata_reader_table.mat.planned import names as say
+from thermodata_reader_table.mat.planned.described_by import fitting, scales_of, unit_of
+from thermodata_reader_table.mat.planned.stream_plan import (
     LOOK,
     MOST_SIGNALS,
     Column,

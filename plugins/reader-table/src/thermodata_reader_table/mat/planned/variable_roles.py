@@ -10,10 +10,19 @@ from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.scale_words import stated_of, states_scale
 from thermodata.schema.units.quantity import is_unit
-from thermodata_reader_table.mat import names as say
-from thermodata_reader_table.mat.signal_structs import one_number, one_text
-from thermodata_reader_table.mat.signal_structs import texts as lines_of
-from thermodata_reader_table.mat.stream_plan import LOOK, MOST_SCALES, Column, Listed, Plan, Scope, TimeVector, rises
+from thermodata_reader_table.mat.planned import names as say
+from thermodata_reader_table.mat.planned.signal_structs import one_number, one_text
+from thermodata_reader_table.mat.planned.signal_structs import texts as lines_of
+from thermodata_reader_table.mat.planned.stream_plan import (
+    LOOK,
+    MOST_SCALES,
+    Column,
+    Listed,
+    Plan,
+    Scope,
+    TimeVector,
+    rises,
+)
 from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, refusal
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Loss
-from thermodata_reader_table.mat.hdf5_check import Spans, check_found, check_size, check_stored
+from thermodata_reader_table.mat.hdf5.check import Spans, check_found, check_size, check_stored
 from thermodata_reader_table.mat.tree import (
     MAX_DEPTH,
     MAX_NODES,

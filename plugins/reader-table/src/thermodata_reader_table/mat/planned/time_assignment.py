@@ -6,10 +6,10 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.errors import FormatError
-from thermodata_reader_table.mat import names as say
-from thermodata_reader_table.mat.signal_structs import Record
-from thermodata_reader_table.mat.signal_structs import texts as lines_of
-from thermodata_reader_table.mat.stream_plan import (
+from thermodata_reader_table.mat.planned import names as say
+from thermodata_reader_table.mat.planned.signal_structs import Record
+from thermodata_reader_table.mat.planned.signal_structs import texts as lines_of
+from thermodata_reader_table.mat.planned.stream_plan import (
     Column,
     Plan,
     Scope,

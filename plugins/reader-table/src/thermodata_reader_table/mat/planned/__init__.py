@@ -1,0 +1,1 @@
+"""Which variables are times, which are signals of them, and which name or describe others."""
