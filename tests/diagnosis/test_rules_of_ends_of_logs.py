@@ -6,9 +6,9 @@ import pytest
 
 from thermodata.diagnosis.clocks.ends_of_logs import Ends, OddEnds, is_alike, meets
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
-from thermodata.diagnosis.tell.next_test import after_clocks
+from thermodata.diagnosis.tell.advising.next_test import after_clocks
 from thermodata.schema.answers.diagnosis import ClockMoved
-from thermodata.store.ingest.told.whole_hours import HoursApart
+from thermodata.store.ingest.told.clocks.whole_hours import HoursApart
 
 SHIFT_S = 1560.0
 

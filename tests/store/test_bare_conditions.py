@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.schema.files.load import load_campaign
 from thermodata.store.catalogue.conditions import plain_value
-from thermodata.store.ingest.told.bare_conditions import UNIT, conditions_without_unit
+from thermodata.store.ingest.told.declared.bare_conditions import UNIT, conditions_without_unit
 
 TEXT = """schema: thermodata/campaign/1
 id: c

@@ -1,4 +1,4 @@
-"""A log that in one test begins and ends as much later beside another is told (ingest/told/beside_each_other.py)."""
+"""A log that in one test begins and ends as much later beside another is told (told/clocks/beside_each_other.py)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
-from thermodata.store.ingest.told.ends import with_pauses
-from thermodata.store.ingest.told.ends_apart import ends_apart
-from thermodata.store.ingest.told.offset_apart import offsets_apart
-from thermodata.store.ingest.told.whole_hours import whole_hours
+from thermodata.store.ingest.told.clocks.beside_each_other import odd_clocks, together
+from thermodata.store.ingest.told.clocks.ends import with_pauses
+from thermodata.store.ingest.told.clocks.ends_apart import ends_apart
+from thermodata.store.ingest.told.clocks.offset_apart import offsets_apart
+from thermodata.store.ingest.told.clocks.whole_hours import whole_hours
 
 DAY, MINUTE = 86_400.0, 60.0
 

@@ -1,5 +1,5 @@
 """Logs that came after the campaign file was written are told, with the line that makes a test of them
-(store/ingest/told/not_listed.py)."""
+(store/ingest/told/declared/not_listed.py)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from store_fakes import write_campaign
 from thermodata.schema.files.load import load_campaign
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.ingest.told.not_listed import not_listed
+from thermodata.store.ingest.told.declared.not_listed import not_listed
 from thermodata.store.keep.forget import forget
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.calibration.between_tests.levels import Course, Levels
-from thermodata.store.ingest.told.other_units import other_units
+from thermodata.store.ingest.told.channels.other_units import other_units
 
 
 def levels(test: str, **medians: float) -> Levels:

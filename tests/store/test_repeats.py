@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Array, Int1D
-from thermodata.store.ingest.told.repeated_times import said_of_repeats
+from thermodata.store.ingest.told.clocks.repeated_times import said_of_repeats
 from thermodata.store.raw import order as order_module
 from thermodata.store.raw import repeats as repeats_module
 from thermodata.store.raw.order import Order, find_order

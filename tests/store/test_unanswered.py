@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.schema.files.load import parse_campaign
-from thermodata.store.ingest.told.unanswered import unanswered
+from thermodata.store.ingest.told.declared.unanswered import unanswered
 
 TEXT = """schema: thermodata/campaign/1
 id: c

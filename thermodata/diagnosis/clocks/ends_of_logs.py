@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
-    from thermodata.store.ingest.told.beside_each_other import OddClock
-    from thermodata.store.ingest.told.whole_hours import HoursApart
+    from thermodata.store.ingest.told.clocks.beside_each_other import OddClock
+    from thermodata.store.ingest.told.clocks.whole_hours import HoursApart
 
 Key = tuple[str, str]
 
@@ -158,8 +158,8 @@ def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
 def ends_of_logs(store: Store, model: Loaded) -> Ends:
     """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared in that test: what
     is said of all tests says nothing of one that stands elsewhere."""
-    from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
-    from thermodata.store.ingest.told.whole_hours import whole_hours
+    from thermodata.store.ingest.told.clocks.beside_each_other import odd_clocks, together
+    from thermodata.store.ingest.told.clocks.whole_hours import whole_hours
     from thermodata.view.grid.describe import declared_clocks
 
     here = {(t.campaign, t.test) for t in model.data.tests}
@@ -195,7 +195,7 @@ def _as_told(one: OddClock, campaign: str, test: str, word: Collection[tuple[str
 
 def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, Any]]]:
     """Test -> its rows of the table `source`, each with its pauses and how long its files last, as ingest has them."""
-    from thermodata.store.ingest.told.ends import with_lengths, with_pauses
+    from thermodata.store.ingest.told.clocks.ends import with_lengths, with_pauses
 
     with store.reader() as con:
         sources, events, files = (

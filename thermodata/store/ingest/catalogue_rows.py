@@ -14,7 +14,7 @@ from thermodata.schema.files.campaign import Campaign, Measuring
 from thermodata.schema.units.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
 from thermodata.store.ingest.known.inventory import Row
-from thermodata.store.ingest.told.beyond_the_end import phases_of
+from thermodata.store.ingest.told.declared.beyond_the_end import phases_of
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, Span, is_relative, recorded
 from thermodata.store.tidy.clock_offsets import clock_to_json

@@ -31,8 +31,8 @@ from thermodata.store.ingest.other_reader import read_by_another, refuse_older_r
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
-from thermodata.store.ingest.told.not_listed import not_listed
-from thermodata.store.ingest.told.taken_out import taken_out
+from thermodata.store.ingest.told.declared.not_listed import not_listed
+from thermodata.store.ingest.told.declared.taken_out import taken_out
 from thermodata.store.tidy.plan.refused import check_derived, check_measuring
 
 if TYPE_CHECKING:

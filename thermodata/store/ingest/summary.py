@@ -14,13 +14,13 @@ from thermodata.schema.agreed.left_out import left_out_for_a_fault
 from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers
-from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
-from thermodata.store.ingest.told.empty_channels import nothing_brought
-from thermodata.store.ingest.told.how_logs_stand import how_logs_stand
+from thermodata.store.ingest.told.channels.empty_channels import nothing_brought
+from thermodata.store.ingest.told.clocks.how_logs_stand import how_logs_stand
+from thermodata.store.ingest.told.declared.bare_conditions import conditions_without_unit
+from thermodata.store.ingest.told.declared.spec_lines import with_lines
+from thermodata.store.ingest.told.declared.unanswered import unanswered
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
 from thermodata.store.ingest.told.same_content import same_content
-from thermodata.store.ingest.told.spec_lines import with_lines
-from thermodata.store.ingest.told.unanswered import unanswered
 
 NOTHING = "nothing changed: the store holds these files and this campaign file already"
 

@@ -21,12 +21,12 @@ from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.tidy_rows import StreamOfTest, count, duration_s, step_s, tidy_rows
-from thermodata.store.ingest.told.beyond_the_end import beyond_the_end
-from thermodata.store.ingest.told.empty_channels import empty_channels
-from thermodata.store.ingest.told.jumps_inside import tell_jumps_inside
+from thermodata.store.ingest.told.channels.empty_channels import empty_channels
+from thermodata.store.ingest.told.channels.jumps_inside import tell_jumps_inside
+from thermodata.store.ingest.told.channels.other_heads import head_of, other_heads
+from thermodata.store.ingest.told.channels.other_units import other_units
+from thermodata.store.ingest.told.declared.beyond_the_end import beyond_the_end
 from thermodata.store.ingest.told.losses import Losses, loss_row
-from thermodata.store.ingest.told.other_heads import head_of, other_heads
-from thermodata.store.ingest.told.other_units import other_units
 from thermodata.store.tidy.clock.cut_short import cut_short
 from thermodata.store.tidy.clock.lent import dated_sources, lent
 from thermodata.store.tidy.clock.source_clock import Clock, Span, span

@@ -13,8 +13,8 @@ from typing import Any
 from thermodata.plugin import Loss
 from thermodata.store.ingest.known.inventory import Row, meta_of
 from thermodata.store.ingest.known.left_alone import TestNote
+from thermodata.store.ingest.told.clocks.repeated_times import said_of_repeats
 from thermodata.store.ingest.told.losses import loss_row
-from thermodata.store.ingest.told.repeated_times import said_of_repeats
 from thermodata.store.tidy.plan.plan import TestPlan
 from thermodata.store.tidy.writer import TidyResult
 

@@ -15,8 +15,8 @@ import numpy as np
 from thermodata.plugin import Float2D
 from thermodata.schema.words.durations import how_long
 from thermodata.schema.words.sentences import listed
-from thermodata.store.ingest.told.ends import LEAST_S, Rows, ends_of, pairs
-from thermodata.store.ingest.told.whole_hours import whole_hours
+from thermodata.store.ingest.told.clocks.ends import LEAST_S, Rows, ends_of, pairs
+from thermodata.store.ingest.told.clocks.whole_hours import whole_hours
 
 APART = 10.0  # by so many times what the ends of the other tests differ by both ends are off, and by LEAST_S
 OTHERS = 3  # tests in which both stand as they always do

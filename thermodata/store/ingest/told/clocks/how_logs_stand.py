@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.ingest.told.beside_each_other import odd_clocks
-from thermodata.store.ingest.told.ends import Rows, with_lengths, with_pauses
-from thermodata.store.ingest.told.ends_apart import ends_apart
-from thermodata.store.ingest.told.offset_apart import offsets_apart
-from thermodata.store.ingest.told.whole_hours import whole_hours
+from thermodata.store.ingest.told.clocks.beside_each_other import odd_clocks
+from thermodata.store.ingest.told.clocks.ends import Rows, with_lengths, with_pauses
+from thermodata.store.ingest.told.clocks.ends_apart import ends_apart
+from thermodata.store.ingest.told.clocks.offset_apart import offsets_apart
+from thermodata.store.ingest.told.clocks.whole_hours import whole_hours
 
 
 def how_logs_stand(campaign: Campaign, sources: Rows, events: Rows, files: Rows) -> list[str]:

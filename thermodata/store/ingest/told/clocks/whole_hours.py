@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.store.ingest.told.ends import LEAST_S, Rows, pairs
+from thermodata.store.ingest.told.clocks.ends import LEAST_S, Rows, pairs
 
 Declared = Mapping[str, Collection[str]]
 LEAST = 2  # tests; of one alone nobody knows whether its logs were begun apart

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.schema.words.durations import how_long
-from thermodata.store.ingest.told.ends import LEAST_S, Rows, pairs
-from thermodata.store.ingest.told.whole_hours import LEAST
+from thermodata.store.ingest.told.clocks.ends import LEAST_S, Rows, pairs
+from thermodata.store.ingest.told.clocks.whole_hours import LEAST
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 from thermodata.schema.words.durations import how_long
 from thermodata.schema.words.sentences import with_count
-from thermodata.store.ingest.told.ends import ends_of, run_through
+from thermodata.store.ingest.told.clocks.ends import ends_of, run_through
 
 LEAST_S = 300.0  # for so long a driver is carried on at its ends without a word
 _NAMED = 6

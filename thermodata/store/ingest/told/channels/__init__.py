@@ -1,0 +1,1 @@
+"""What is odd about channels beside the same ones in other tests."""
