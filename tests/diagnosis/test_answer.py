@@ -15,7 +15,7 @@ import yaml
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.locked.confirm import rmse
 from thermodata.diagnosis.sound import beside_slips, sound
-from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
+from thermodata.diagnosis.tell.of_version.as_stored import by_its_own_parameters
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model

@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.diagnosis.claims.rules import failed_rules, in_words, on_locked
 from thermodata.diagnosis.locked.held import RISES_ELSEWHERE
-from thermodata.diagnosis.tell.why import where_it_acts
+from thermodata.diagnosis.tell.candidate.why import where_it_acts
 from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 

@@ -12,7 +12,7 @@ import pytest
 
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.tell.advising import next_test
 from thermodata.diagnosis.weigh.gain_by import gains_by_condition, named
 from thermodata.effect import effects
 from thermodata.effect.lag import lag

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.claims.rules import blunt, failed_rules
-from thermodata.diagnosis.tell.ladder import chance, courses, left_out, rungs
+from thermodata.diagnosis.tell.candidate.ladder import chance, courses, left_out, rungs
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
 from thermodata.view.grid.dataset import ChannelInfo

@@ -12,7 +12,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidat
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.claims.refines import mode_of
 from thermodata.diagnosis.question.present import Present
-from thermodata.diagnosis.tell.why import would_be_a_mode
+from thermodata.diagnosis.tell.candidate.why import would_be_a_mode
 from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
 from thermodata.view.grid.dataset import ChannelInfo, TestData

@@ -1,4 +1,4 @@
-"""A power claimed as heat of the cut, beside the heat of its motor or where nothing is cut (tell/why.py)."""
+"""A power claimed as heat of the cut, beside the heat of its motor or where nothing is cut (tell/candidate/why.py)."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from thermodata.diagnosis.tell.of_claim import also_of_motor, heats_its_motor, where_nothing_is_cut
-from thermodata.diagnosis.tell.row import _unread
+from thermodata.diagnosis.tell.candidate.of_claim import also_of_motor, heats_its_motor, where_nothing_is_cut
+from thermodata.diagnosis.tell.candidate.row import _unread
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need

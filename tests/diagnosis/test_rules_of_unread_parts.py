@@ -10,7 +10,7 @@ from thermodata.diagnosis.candidates.of_library import candidates
 from thermodata.diagnosis.claims.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.question.present import Present
-from thermodata.diagnosis.tell.next_test import to_find, to_log
+from thermodata.diagnosis.tell.advising.next_test import to_find, to_log
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.verdict.verdict import causes, verdict_sentence

@@ -12,14 +12,21 @@ import pytest
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
-from thermodata.diagnosis.tell.errors_told import as_told
-from thermodata.diagnosis.tell.ladder import of_probability
-from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_exclude, to_find, to_separate, to_tell_parts
-from thermodata.diagnosis.tell.of_claim import in_spite_of, placeless_limit
-from thermodata.diagnosis.tell.of_locked import said_by_locked
-from thermodata.diagnosis.tell.row import alike_both_ways
-from thermodata.diagnosis.tell.told import Told, as_ranked
-from thermodata.diagnosis.tell.why import _not_claimed, _of_all
+from thermodata.diagnosis.tell.advising.next_test import (
+    to_bear_out,
+    to_decide,
+    to_exclude,
+    to_find,
+    to_separate,
+    to_tell_parts,
+)
+from thermodata.diagnosis.tell.candidate.ladder import of_probability
+from thermodata.diagnosis.tell.candidate.of_claim import in_spite_of, placeless_limit
+from thermodata.diagnosis.tell.candidate.of_locked import said_by_locked
+from thermodata.diagnosis.tell.candidate.row import alike_both_ways
+from thermodata.diagnosis.tell.candidate.told import Told, as_ranked
+from thermodata.diagnosis.tell.candidate.why import _not_claimed, _of_all
+from thermodata.diagnosis.tell.listing.errors_told import as_told
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.tell.next_test import to_find
-from thermodata.diagnosis.tell.worked import AIR, Worked, worked
+from thermodata.diagnosis.tell.advising.next_test import to_find
+from thermodata.diagnosis.tell.advising.worked import AIR, Worked, worked
 from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import a_test, scored

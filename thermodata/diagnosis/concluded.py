@@ -9,8 +9,8 @@ from thermodata.diagnosis.case import Case
 from thermodata.diagnosis.locked.confirm import Confirmation, confirm
 from thermodata.diagnosis.locked.left_on_locked import contradicted
 from thermodata.diagnosis.locked.unlocking import Look, Unlocked, unlocked
-from thermodata.diagnosis.tell.in_version import told_by_versions
-from thermodata.diagnosis.tell.together import Refit, left_with_named, told_alike
+from thermodata.diagnosis.tell.of_version.in_version import told_by_versions
+from thermodata.diagnosis.tell.of_version.together import Refit, left_with_named, told_alike
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, parts_offered

@@ -14,16 +14,16 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.question.responses import shares_left
 from thermodata.diagnosis.sound import told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
-from thermodata.diagnosis.tell import ladder
-from thermodata.diagnosis.tell.advice import advice
-from thermodata.diagnosis.tell.as_stored import as_fitted
-from thermodata.diagnosis.tell.listed import explainable, first_cause, listed, with_probability
-from thermodata.diagnosis.tell.next_test import after_clocks
+from thermodata.diagnosis.tell.advising.advice import advice
+from thermodata.diagnosis.tell.advising.next_test import after_clocks
+from thermodata.diagnosis.tell.candidate import ladder
+from thermodata.diagnosis.tell.candidate.row import alike_both_ways, candidate
+from thermodata.diagnosis.tell.candidate.told import told_of
+from thermodata.diagnosis.tell.listing.listed import explainable, first_cause, listed, with_probability
+from thermodata.diagnosis.tell.listing.stated import Row
+from thermodata.diagnosis.tell.of_version.as_stored import as_fitted
+from thermodata.diagnosis.tell.of_version.started_on import started_with
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.tell.row import alike_both_ways, candidate
-from thermodata.diagnosis.tell.started_on import started_with
-from thermodata.diagnosis.tell.stated import Row
-from thermodata.diagnosis.tell.told import told_of
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation

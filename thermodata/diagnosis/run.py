@@ -23,7 +23,7 @@ from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.responses import response_index
 from thermodata.diagnosis.sound import sound, told
-from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
+from thermodata.diagnosis.tell.of_version.as_stored import by_its_own_parameters
 from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect

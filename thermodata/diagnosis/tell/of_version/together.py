@@ -12,9 +12,9 @@ from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.question.known import known, likeliest
-from thermodata.diagnosis.tell.advised import lets_an_error_fall
-from thermodata.diagnosis.tell.errors_told import beside_the_model, fall, judged_beside
-from thermodata.diagnosis.tell.same_equation import may_be
+from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
+from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall, judged_beside
+from thermodata.diagnosis.tell.of_version.same_equation import may_be
 from thermodata.diagnosis.verdict.investigate import Investigation, weighed
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored

@@ -5,14 +5,19 @@ from __future__ import annotations
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.refines import by_kind, not_advised
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, failed_rules, on_locked
-from thermodata.diagnosis.tell.errors_told import errors_of_all
-from thermodata.diagnosis.tell.ladder import of_probability
-from thermodata.diagnosis.tell.of_claim import also_of_motor, in_spite_of, placeless_limit, where_nothing_is_cut
-from thermodata.diagnosis.tell.of_locked import said_by_locked
-from thermodata.diagnosis.tell.of_one_body import in_place_of_heats, only_warms
+from thermodata.diagnosis.tell.candidate.ladder import of_probability
+from thermodata.diagnosis.tell.candidate.of_claim import (
+    also_of_motor,
+    in_spite_of,
+    placeless_limit,
+    where_nothing_is_cut,
+)
+from thermodata.diagnosis.tell.candidate.of_locked import said_by_locked
+from thermodata.diagnosis.tell.candidate.of_one_body import in_place_of_heats, only_warms
+from thermodata.diagnosis.tell.candidate.told import Told
+from thermodata.diagnosis.tell.listing.errors_told import errors_of_all
+from thermodata.diagnosis.tell.listing.stated import among, is_a_cause, is_judged_beside
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.tell.stated import among, is_a_cause, is_judged_beside
-from thermodata.diagnosis.tell.told import Told
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words

@@ -9,14 +9,14 @@ import numpy as np
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import motors_of, reads
 from thermodata.diagnosis.claims.probability import elsewhere, probability
-from thermodata.diagnosis.tell import ladder
-from thermodata.diagnosis.tell.advised import as_added
-from thermodata.diagnosis.tell.errors_told import rmse
-from thermodata.diagnosis.tell.of_claim import heats_its_motor
+from thermodata.diagnosis.tell.candidate import ladder
+from thermodata.diagnosis.tell.candidate.of_claim import heats_its_motor
+from thermodata.diagnosis.tell.candidate.told import Told
+from thermodata.diagnosis.tell.candidate.why import why
+from thermodata.diagnosis.tell.listing.advised import as_added
+from thermodata.diagnosis.tell.listing.errors_told import rmse
+from thermodata.diagnosis.tell.listing.stated import among
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.tell.stated import among
-from thermodata.diagnosis.tell.told import Told
-from thermodata.diagnosis.tell.why import why
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate

@@ -8,9 +8,9 @@ import numpy as np
 
 from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import rules
-from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.tell.advising import next_test
+from thermodata.diagnosis.tell.advising.worked import worked
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.tell.worked import worked
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, equivalents
 from thermodata.diagnosis.weigh.scored import Scored

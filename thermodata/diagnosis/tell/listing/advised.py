@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.diagnosis.tell.errors_told import beside_the_model, fall
+from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Foretold

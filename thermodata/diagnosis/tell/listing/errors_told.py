@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.tell.stated import Row
+from thermodata.diagnosis.tell.listing.stated import Row
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored

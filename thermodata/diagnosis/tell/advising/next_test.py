@@ -8,7 +8,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import reads
 from thermodata.diagnosis.claims.probability import elsewhere
 from thermodata.diagnosis.question.problem import MIN_ROWS
-from thermodata.diagnosis.tell.worked import Worked
+from thermodata.diagnosis.tell.advising.worked import Worked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.schema.words.places import heat_at, is_around

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.locked.confirm import Confirmation
-from thermodata.diagnosis.tell.advised import against_adding
-from thermodata.diagnosis.tell.errors_told import as_told, beside_the_model, judged_beside
+from thermodata.diagnosis.tell.listing.advised import against_adding
+from thermodata.diagnosis.tell.listing.errors_told import as_told, beside_the_model, judged_beside
+from thermodata.diagnosis.tell.listing.stated import Row, among, goes_by_name, reads_as
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.tell.stated import Row, among, goes_by_name, reads_as
 from thermodata.diagnosis.verdict.judge import Judged, equivalents
 from thermodata.diagnosis.weigh.scored import Scored
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from thermodata.diagnosis.tell.together import Refit
+from thermodata.diagnosis.tell.of_version.together import Refit
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.errors import ThermodataError

@@ -8,9 +8,9 @@ import numpy as np
 
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt, explained
-from thermodata.diagnosis.tell.advised import lets_an_error_fall
-from thermodata.diagnosis.tell.errors_told import beside_the_model, fall
-from thermodata.diagnosis.tell.stated import Row, among, causes, is_judged_beside, likeliest, stated
+from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
+from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall
+from thermodata.diagnosis.tell.listing.stated import Row, among, causes, is_judged_beside, likeliest, stated
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.scored import Scored

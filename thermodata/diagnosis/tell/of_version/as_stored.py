@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.weak import weak_spots
-from thermodata.diagnosis.tell.started_on import started_with
+from thermodata.diagnosis.tell.of_version.started_on import started_with
 from thermodata.modelling.run import Loaded
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.answers.diagnosis import Diagnosis

@@ -1,0 +1,1 @@
+"""What to do next: which test to run, and which sensor to add."""
