@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.folder.clock_said import offset_of
+from thermodata.draft.folder.beside.clock_said import offset_of
 
 from ..commands import Said
 

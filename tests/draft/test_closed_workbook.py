@@ -9,8 +9,8 @@ import pytest
 
 from thermodata.archive import workbook as archived_workbook
 from thermodata.draft.campaign.plan import plan
+from thermodata.draft.folder.beside.table import closed_workbooks, grids_of
 from thermodata.draft.folder.scan import scan
-from thermodata.draft.folder.table import closed_workbooks, grids_of
 
 from .labs import LABS
 

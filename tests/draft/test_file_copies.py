@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 import pytest
 
-from thermodata.draft.folder.file_copies import beginnings_in, copies_in
+from thermodata.draft.folder.put_aside.file_copies import beginnings_in, copies_in
 from thermodata.draft.make import draft_files
 
 from ..commands import Said

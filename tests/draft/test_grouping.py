@@ -180,7 +180,7 @@ def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
 
 def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     n = 60
-    monkeypatch.setattr("thermodata.draft.campaign.channels._MOST_SIGNALS", 50)
+    monkeypatch.setattr("thermodata.draft.campaign.channels.channels._MOST_SIGNALS", 50)
     text(
         tmp_path / "a.csv",
         ["time [s]", *(f"T{i} [degC]" for i in range(n))],

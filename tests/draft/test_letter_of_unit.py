@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from thermodata.draft.campaign.among_channels.siblings import beside_each_other
 from thermodata.draft.campaign.parts import DraftChannel
-from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import values_of
 

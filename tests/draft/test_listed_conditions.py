@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.folder.table import find_table
+from thermodata.draft.folder.beside.table import find_table
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 

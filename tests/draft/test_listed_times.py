@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.campaign.parts import Draft
-from thermodata.draft.folder.lists_of_tests import times_listed
+from thermodata.draft.folder.beside.lists_of_tests import times_listed
 from thermodata.draft.make import draft_files
 from thermodata.schema.files.load import load_campaign
 from thermodata.store import Store

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.folder.lists_of_tests import listed_tests
+from thermodata.draft.folder.beside.lists_of_tests import listed_tests
 from thermodata.draft.make import draft_files
 
 from .labs import numbers, text

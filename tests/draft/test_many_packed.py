@@ -10,8 +10,8 @@ from unittest.mock import Mock
 
 import pytest
 
-from thermodata.draft.folder import packed_copies as module
-from thermodata.draft.folder.packed_copies import by_archive, packed_copies
+from thermodata.draft.folder.put_aside import packed_copies as module
+from thermodata.draft.folder.put_aside.packed_copies import by_archive, packed_copies
 
 
 def test_logs_of_one_name_and_one_length_are_each_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from thermodata.draft.campaign.wished_names import wished_name
+from thermodata.draft.campaign.channels.wished_names import wished_name
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.signals.values import joined, values_of

@@ -11,7 +11,7 @@ import yaml
 from thermodata.draft.make import draft_files
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.ingest.told.unanswered import unanswered
+from thermodata.store.ingest.told.declared.unanswered import unanswered
 
 
 def log(path: Path, column: str, values: list[float]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.draft.signals.other_units import unit_question
+from thermodata.draft.signals.told_units.other_units import unit_question
 from thermodata.draft.signals.values import values_of
 
 from .labs import numbers, text

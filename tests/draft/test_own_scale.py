@@ -10,7 +10,7 @@ import pytest
 from nptdms import ChannelObject, TdmsWriter
 
 from thermodata.draft.make import draft_files
-from thermodata.draft.signals.own_scale import scale_note
+from thermodata.draft.signals.told_units.own_scale import scale_note
 from thermodata.plugin import Scaling, Signal
 
 

@@ -13,7 +13,7 @@ import scipy.io
 from nptdms import ChannelObject, RootObject, TdmsWriter
 
 from thermodata.draft.signals.guess import guess_of
-from thermodata.draft.signals.scale_said import with_scale_asked
+from thermodata.draft.signals.told_units.scale_said import with_scale_asked
 from thermodata.plugin import Scaling, Signal
 
 from ..commands import Say

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.folder.notes import notes_of
-from thermodata.draft.folder.statements import statements
+from thermodata.draft.folder.beside.notes import notes_of
+from thermodata.draft.folder.beside.statements import statements
 
 CALLED = {n.casefold(): n for n in ("P1", "P2", "P3", "exp_b", "exp_c")}
 

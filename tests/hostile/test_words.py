@@ -15,7 +15,7 @@ from thermodata.report.text.fit import before_after_text, made_worse
 from thermodata.report.words.numbers import in_units
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.ingest.told.unanswered import unanswered
+from thermodata.store.ingest.told.declared.unanswered import unanswered
 from thermodata.view import StoreView
 
 from .conftest import Lab

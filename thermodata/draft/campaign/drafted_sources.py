@@ -8,11 +8,11 @@ from pathlib import Path
 
 from thermodata.draft.campaign.parts import DraftSource
 from thermodata.draft.files.letters_of_files import common
-from thermodata.draft.folder.one_or_many import one_or_many
-from thermodata.draft.folder.packed_pieces import packed_pieces
-from thermodata.draft.folder.sources import Group
-from thermodata.draft.folder.table import TestTable
-from thermodata.draft.folder.two_formats import two_formats
+from thermodata.draft.folder.beside.table import TestTable
+from thermodata.draft.folder.into_sources.one_or_many import one_or_many
+from thermodata.draft.folder.into_sources.packed_pieces import packed_pieces
+from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.folder.into_sources.two_formats import two_formats
 from thermodata.draft.times.clocks import Alignment, repeats_question, set_back_question, start_question
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.zones import zone_as_before, zone_question

@@ -11,12 +11,12 @@ from thermodata.draft.courses.kinds import Kind, kind_of
 from thermodata.draft.courses.measuring import rule_of
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.file_copies import other_versions
-from thermodata.draft.folder.group import files_of
-from thermodata.draft.folder.listed_times import ListedTime
-from thermodata.draft.folder.notes import Note, notes_of
-from thermodata.draft.folder.sources import Group
-from thermodata.draft.folder.table import TestTable
+from thermodata.draft.folder.beside.listed_times import ListedTime
+from thermodata.draft.folder.beside.notes import Note, notes_of
+from thermodata.draft.folder.beside.table import TestTable
+from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.folder.into_tests.group import files_of
+from thermodata.draft.folder.put_aside.file_copies import other_versions
 from thermodata.draft.probes.end_of_range import range_questions
 from thermodata.draft.probes.jump_within import window_behind_jumps
 from thermodata.draft.times.beside_list import not_as_listed, start_listed

@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from thermodata.draft.folder.by_listed_times import parted_by_lists
-from thermodata.draft.folder.group import tests_of
-from thermodata.draft.folder.legend import with_legends
-from thermodata.draft.folder.lists_of_tests import lists_apart, times_listed
+from thermodata.draft.folder.beside.legend import with_legends
+from thermodata.draft.folder.beside.lists_of_tests import lists_apart, times_listed
+from thermodata.draft.folder.beside.sensors_described import with_sensors_described
+from thermodata.draft.folder.beside.table import find_table, is_called_table, most_rows
+from thermodata.draft.folder.into_sources.sources import sources_of
+from thermodata.draft.folder.into_tests.by_listed_times import parted_by_lists
+from thermodata.draft.folder.into_tests.group import tests_of
+from thermodata.draft.folder.into_tests.sensor_files import with_their_sensors
 from thermodata.draft.folder.saved_twice import saved_once
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.folder.sensor_files import with_their_sensors
-from thermodata.draft.folder.sensors_described import with_sensors_described
-from thermodata.draft.folder.sources import sources_of
-from thermodata.draft.folder.table import find_table, is_called_table, most_rows
 from thermodata.draft.probes.jumps import jump_of
 from thermodata.draft.times.date_order import with_orders_told
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.draft.courses.kinds import Kind
-from thermodata.draft.folder.table import TestTable
+from thermodata.draft.folder.beside.table import TestTable
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.times.clocks import Alignment
 

@@ -6,26 +6,26 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from thermodata.draft.campaign.asked_once import asked_once
-from thermodata.draft.campaign.by_hand import asked_whether_held
-from thermodata.draft.campaign.channels import channels_of
+from thermodata.draft.campaign.among_channels.asked_once import asked_once
+from thermodata.draft.campaign.among_channels.by_hand import asked_whether_held
+from thermodata.draft.campaign.among_channels.feeds_of_positions import feeds_of_positions
+from thermodata.draft.campaign.among_channels.siblings import beside_each_other
+from thermodata.draft.campaign.among_channels.speeds_told import with_told_speeds
+from thermodata.draft.campaign.channels.channels import channels_of
 from thermodata.draft.campaign.drafted_sources import Beside, drafted_sources
 from thermodata.draft.campaign.drafted_tests import drafted_tests
-from thermodata.draft.campaign.feeds_of_positions import feeds_of_positions
 from thermodata.draft.campaign.files_apart import files_apart
 from thermodata.draft.campaign.hardly_looked_at import hardly_looked_at
-from thermodata.draft.campaign.jump_sources import with_their_sources
-from thermodata.draft.campaign.jumps_used import idle_jumps, jumps_of
+from thermodata.draft.campaign.jumps.jump_sources import with_their_sources
+from thermodata.draft.campaign.jumps.jumps_used import idle_jumps, jumps_of
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump
-from thermodata.draft.campaign.siblings import beside_each_other
-from thermodata.draft.campaign.speeds_told import with_told_speeds
-from thermodata.draft.folder.clock_said import clocks_said
-from thermodata.draft.folder.group import counted_on, tests_of
-from thermodata.draft.folder.notes import described_in
-from thermodata.draft.folder.one_signal import joined_over_units
+from thermodata.draft.folder.beside.clock_said import clocks_said
+from thermodata.draft.folder.beside.notes import described_in
+from thermodata.draft.folder.beside.table import TestTable, closed_workbooks, find_table
+from thermodata.draft.folder.into_sources.one_signal import joined_over_units
+from thermodata.draft.folder.into_sources.sources import Group, sources_of
+from thermodata.draft.folder.into_tests.group import counted_on, tests_of
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.folder.sources import Group, sources_of
-from thermodata.draft.folder.table import TestTable, closed_workbooks, find_table
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.times.clocks import Named, alignments, mended_clocks

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.beside.table import SUFFIXES, WORKBOOKS
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.folder.table import SUFFIXES, WORKBOOKS
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.naming import parts_of
 from thermodata.reader.text import split_unit

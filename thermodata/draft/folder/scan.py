@@ -23,11 +23,11 @@ from thermodata.draft.files.raw_file import (
     sheet_by_sheet,
 )
 from thermodata.draft.files.sample import SMALL, Watch, short
-from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfinished_in
-from thermodata.draft.folder.lent_names import with_lent_names
-from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
-from thermodata.draft.folder.packed_copies import by_archive, packed_copies
-from thermodata.draft.folder.settings import settings_in
+from thermodata.draft.folder.into_sources.lent_names import with_lent_names
+from thermodata.draft.folder.into_sources.of_one_time import in_every_file, of_one_time
+from thermodata.draft.folder.put_aside.file_copies import beginnings_in, copies_in, unfinished_in
+from thermodata.draft.folder.put_aside.packed_copies import by_archive, packed_copies
+from thermodata.draft.folder.put_aside.settings import settings_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.files.stores import within_stores

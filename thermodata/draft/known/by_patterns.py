@@ -10,8 +10,8 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.files.raw_file import RawFile, described_file, sample_of_file
-from thermodata.draft.folder.group import agreeing, grouped, one_recording
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.folder.into_tests.group import agreeing, grouped, one_recording
 from thermodata.draft.words.filenames import Naming, normal
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Recording

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from thermodata.draft.folder.one_signal import joined_over_units
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.one_signal import joined_over_units
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.words.naming import parts_of, words

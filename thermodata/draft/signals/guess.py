@@ -10,17 +10,18 @@ import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from thermodata.draft.signals import bracket_at_end, units
-from thermodata.draft.signals.doubted_units import doubted, implausible
+from thermodata.draft.signals import units
 from thermodata.draft.signals.implied_speed import with_speed_asked
-from thermodata.draft.signals.implied_unit import with_unit
-from thermodata.draft.signals.letter_of_unit import placed_but_for_unit
-from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess, range_text
 from thermodata.draft.signals.quantity.quantity_of import quantity_of
-from thermodata.draft.signals.standard_units import with_standard_unit
-from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
+from thermodata.draft.signals.told_units import bracket_at_end
+from thermodata.draft.signals.told_units.doubted_units import doubted, implausible
+from thermodata.draft.signals.told_units.implied_unit import with_unit
+from thermodata.draft.signals.told_units.letter_of_unit import placed_but_for_unit
+from thermodata.draft.signals.told_units.name_factor import with_factor_asked
+from thermodata.draft.signals.told_units.standard_units import with_standard_unit
+from thermodata.draft.signals.told_units.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.listed_times import ListedTime, shown
+from thermodata.draft.folder.beside.listed_times import ListedTime, shown
 
 _NEAR_NS = 300 * 10**9  # by which whoever wrote the list looked at another clock
 _LATE_NS = 12 * 3600 * 10**9  # by which a log begins behind a test of which no end is said

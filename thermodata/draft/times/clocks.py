@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Float1D, Int1D
 from thermodata.reader.times.step_back import OLDER, cause_of, in_words, said
 from thermodata.schema.words.sentences import counted
-from thermodata.store.ingest.told.repeated_times import MANY
+from thermodata.store.ingest.told.clocks.repeated_times import MANY
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
 from thermodata.store.tidy.rows.on_change import SET, STEPS, come_at_no_rate, with_steps
 

@@ -12,8 +12,8 @@ from typing import Any
 from thermodata.archive.members import standing
 from thermodata.draft.files.day_in_name import day_of_name
 from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_file
-from thermodata.draft.folder.group import tests_of
-from thermodata.draft.folder.sources import Group, sources_of
+from thermodata.draft.folder.into_sources.sources import Group, sources_of
+from thermodata.draft.folder.into_tests.group import tests_of
 from thermodata.draft.times.hints import fitting_others, swapped
 from thermodata.errors import ThermodataError
 from thermodata.reader.contract.guard import described

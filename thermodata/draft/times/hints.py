@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 
 _SAID = re.compile(
     r"(?<![A-Za-z0-9.,])(\d{1,3}(?:[.,]\d+)?) ?(h|hrs?|hours?|std|stunden|hod|min)(?![A-Za-z])", re.IGNORECASE

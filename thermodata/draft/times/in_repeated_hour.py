@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.reader.text.preamble.pass_words import lines_above, pass_said
 from thermodata.reader.times.repeated_hour import RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import utc_offset_ns

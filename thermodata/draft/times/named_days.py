@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta
 
 from thermodata.draft.files.day_in_name import began_ns, day_of_name, span_ns
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.schema.words.sentences import counted
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.times.zones import begin_of
 from thermodata.reader.times.step_back import in_words
 from thermodata.schema.words.sentences import with_count

@@ -11,8 +11,8 @@ from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.clock_said import zone_said
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.beside.clock_said import zone_said
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import EXAMPLE, named_zone, zone_in
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS

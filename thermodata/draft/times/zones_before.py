@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from thermodata.draft.folder.sources import Group
+from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.errors import ThermodataError
 from thermodata.reader.times.zone import zone as zone_called
 from thermodata.schema.files.tests_from import pattern_of

@@ -1,0 +1,1 @@
+"""What lies beside the logs and says something of them: tables and lists of tests, notes, legends, sensors."""
