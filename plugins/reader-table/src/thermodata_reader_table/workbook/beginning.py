@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import BinaryIO
 
 from thermodata.archive.workbook import inflate
 from thermodata.errors import FormatError
@@ -40,18 +41,23 @@ def beginning(path: Path, folder: Path) -> Path | None:
                 small.writestr(member.filename, text)
             if not cut:
                 return None
-            left = _OTHER_BYTES
-            for member in others:
-                with small.open(member.filename, "w") as out:
-                    for part in inflate(file, member, path):
-                        left -= len(part)
-                        if left < 0:
-                            return None
-                        out.write(part)
+            _copy(file, others, path, small)
     # NotImplementedError: zipfile's word for a compression that it lacks
     except (FormatError, zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
         return None
     return target
+
+
+def _copy(file: BinaryIO, members: Sequence[zipfile.ZipInfo], path: Path, target: zipfile.ZipFile) -> None:
+    """Parts of the workbook `path` as they are; ValueError where they unpack to more than is taken."""
+    left = _OTHER_BYTES
+    for member in members:
+        with target.open(member.filename, "w") as out:
+            for part in inflate(file, member, path):
+                left -= len(part)
+                if left < 0:
+                    raise ValueError("texts and formats of an absurd length")
+                out.write(part)
 
 
 def _first_rows(parts: Iterator[bytes], rows: int, size: int) -> tuple[bytes, bool]:

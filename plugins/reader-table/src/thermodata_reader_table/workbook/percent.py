@@ -32,18 +32,18 @@ def percent_columns(path: Path) -> dict[str, Counter[int]]:
         styles = _percent_styles(_part(archive, "xl/styles.xml"))
         if not styles:
             return {}
-        found = {}
-        for sheet, member in _sheets(archive).items():
-            counts: Counter[int] = Counter()
-            for rows in _rows(archive, member):
-                for attributes in _CELL.findall(rows):
-                    tag = " " + attributes.decode("utf-8", "replace")
-                    place, style = _attribute(tag, "r"), _attribute(tag, "s")
-                    if place and style in styles and _attribute(tag, "t") in (None, "n"):
-                        counts[_column(place)] += 1
-            if counts:
-                found[sheet] = counts
-        return found
+        found = {sheet: Counter(_columns(archive, member, styles)) for sheet, member in _sheets(archive).items()}
+        return {sheet: counts for sheet, counts in found.items() if counts}
+
+
+def _columns(archive: zipfile.ZipFile, member: str, styles: set[str]) -> Iterator[int]:
+    """The column of each number of a sheet that has one of these styles."""
+    for rows in _rows(archive, member):
+        for attributes in _CELL.findall(rows):
+            tag = " " + attributes.decode("utf-8", "replace")
+            place, style = _attribute(tag, "r"), _attribute(tag, "s")
+            if place and style in styles and _attribute(tag, "t") in (None, "n"):
+                yield _column(place)
 
 
 def counts_from_1904(path: Path) -> bool:

@@ -26,64 +26,69 @@ from thermodata_reader_table.mat.version5.elements import (
 )
 from thermodata_reader_table.mat.version5.matrices import MatrixParser
 
+_HEADER = 128  # bytes
+_VERSION = 0x0100
+
 
 def read(path: Path) -> Tree:
     """All variables; bulk stays where it is until it is asked for. FormatError: not a MAT 5 file."""
-    with path.open("rb") as file:
-        size = path.stat().st_size
-        if size < 128:
-            raise FormatError(
-                "the file ends inside its header",
-                where=path.name,
-                expected="128 bytes",
-                got=str(size),
-                hint="copy it anew from where it was saved",
-            )
-        data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    mark = bytes(data[126:128])
-    if mark not in (b"IM", b"MI"):
-        raise FormatError(
-            "not a MAT file of version 5",
-            where=f"{path.name} byte 126",
-            expected="byte order IM or MI",
-            got=repr(mark),
-            hint='save it anew in MATLAB: save(name, "-v7.3")',
-        )
-    order = "<" if mark == b"IM" else ">"
-    (version,) = struct.unpack(f"{order}H", data[124:126])
-    if version != 0x0100:
-        raise FormatError(
-            "not a MAT file of version 5",
-            where=f"{path.name} byte 124",
-            expected="version 0x0100",
-            got=hex(version),
-            hint='save it anew in MATLAB: save(name, "-v7.3")',
-        )
+    data = _mapped(path)
+    order = _byte_order(data, path.name)
     variables: dict[str, Node] = {}
     losses: list[Loss] = []
-    at, cut, budget = 128, False, [MAX_UNPACKED]
+    at, size, budget = _HEADER, len(data), [MAX_UNPACKED]
     while at < size:
         where = f"{path.name} byte {at}"
         try:
             element = element_at(data, at, size, order, padded=False)
         except DamagedError as error:
             losses.append(Loss(where, None, None, min(1.0, (size - at) / size), f"{error}: what follows is lost"))
-            cut = True
-            break
+            return Tree(variables, tuple(losses), False)
+        begin, at = at, element.next
         try:
             found = _variable(data, element, order, budget)
         except DamagedError as error:
-            losses.append(Loss(where, None, None, (element.next - at) / size, f"a damaged variable: {error}"))
-            found = None
-        at = element.next
+            lost = (at - begin) / size
+            losses.append(Loss(where, None, None, lost, f"a damaged variable: {error}"))
+            continue
         if found is None:
             continue
         name, node = found
         if name in variables:
             losses.append(Loss(where, reason=f"a second variable '{name}': the first is kept"))
-            continue
-        variables[name] = node
-    return Tree(variables, tuple(losses), False if cut else None)
+        else:
+            variables[name] = node
+    return Tree(variables, tuple(losses), None)
+
+
+def _mapped(path: Path) -> memoryview:
+    with path.open("rb") as file:
+        size = path.stat().st_size
+        if size < _HEADER:
+            raise FormatError(
+                "the file ends inside its header",
+                where=path.name,
+                expected=f"{_HEADER} bytes",
+                got=str(size),
+                hint="copy it anew from where it was saved",
+            )
+        return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+
+
+def _byte_order(data: memoryview, name: str) -> str:
+    """'<' or '>', by the end of the header. FormatError where it is of another version. name: of the file."""
+    order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
+    if order is None:
+        raise _of_another_version(f"{name} byte 126", "byte order IM or MI", repr(bytes(data[126:128])))
+    (version,) = struct.unpack(f"{order}H", data[124:126])
+    if version != _VERSION:
+        raise _of_another_version(f"{name} byte 124", f"version {_VERSION:#06x}", hex(version))
+    return order
+
+
+def _of_another_version(where: str, expected: str, got: str) -> FormatError:
+    hint = 'save it anew in MATLAB: save(name, "-v7.3")'
+    return FormatError("not a MAT file of version 5", where=where, expected=expected, got=got, hint=hint)
 
 
 def _variable(data: memoryview, element: Element, order: str, budget: list[int]) -> tuple[str, Node] | None:
