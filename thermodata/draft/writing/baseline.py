@@ -70,43 +70,48 @@ def _known(campaign: Campaign) -> dict[str, _Known]:
     return {n: _Known(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()}
 
 
+@dataclass(frozen=True, slots=True)
+class _Sensors:
+    """The channels that may drive effects, for a response on `axis`."""
+
+    drivers: Mapping[str, _Known]
+    axis: str | None
+
+    def fitting(self, name: str) -> list[dict[str, str]]:
+        """How the channels drive an effect, the nearest sensor first; [] where none does, or it is not installed."""
+        there = self.anywhere(name)
+        return _nearest_first(name, _on_axis(there, self.drivers, self.axis or "none"), self.drivers)
+
+    def anywhere(self, name: str) -> list[dict[str, str]]:
+        """The same with those on other axes than the response's."""
+        effect = effects().get(name)
+        return [] if effect is None else unnamed(effect, self.drivers)
+
+    def plain(self, name: str) -> str | None:
+        """The line of a plain effect, or of what stands for it where only its speed is logged; None without either."""
+        for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
+            if fits := self.fitting(tried):
+                rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
+                return f"{_line(tried, fits[0])}   # {one_line(effects()[tried].meaning.split(':')[0])}{rest}"
+        return None
+
+
 def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = None) -> str | None:
+    """chosen: the response, the first of the tool's where None. None where there is none, or nothing drives it."""
     axes = _axes(channels)
     first = next((n for n, c in channels.items() if axes and _is_tools(c) and c.axis == axes[0]), None)
     chosen = chosen or first
     if chosen is None:
         return None
     axis = channels[chosen].axis
+    drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
+    effect_lines = _effects(_Sensors(drivers, axis))
+    if effect_lines is None:
+        return None
     alone = _is_tools(channels[chosen]) and sum(_is_tools(c) and c.axis == axis for c in channels.values()) == 1
     wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
     others = [a for a in axes if a != axis]
-    drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
-    known = effects()
-    lines, missing, elsewhere = [], [], []
-
-    def fitting(name: str) -> list[dict[str, str]]:
-        effect = known.get(name)
-        if effect is None:
-            return []
-        return _nearest_first(name, _on_axis(unnamed(effect, drivers), drivers, axis or "none"), drivers)
-
-    for name in _PLAIN:
-        for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
-            if fits := fitting(tried):
-                rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
-                lines.append(f"{_line(tried, fits[0])}   # {one_line(known[tried].meaning.split(':')[0])}{rest}")
-                break
-        else:
-            there = unnamed(known[name], drivers) if name in known else []
-            if there:
-                elsewhere.append(f"{name} ({one_line(', '.join(there[0].values()))})")
-            else:
-                missing.append(name)
-    if not lines:
-        return None
-    offered = [_line(name, fits[0]) for name in _OFFERED if (fits := fitting(name))]
-    nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
-    unplaced = with_count(nowhere, _SHOWN)
+    unplaced = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
     text = [
         "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
         "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
@@ -116,15 +121,33 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
         f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
         "step: 60 s",
         "effects:",
-        *lines,
-        *(["# logged too, and left to thermodata diagnose; to have one now, delete its '#':"] if offered else []),
-        *(f"#{line}" for line in offered),
-        *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
-        *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
-        *([f"# ? drive nothing until their place ('at') is answered: {unplaced}"] if unplaced else []),
-        "",
+        *effect_lines,
     ]
-    return sealed("\n".join(text))
+    if unplaced:
+        text.append(f"# ? drive nothing until their place ('at') is answered: {with_count(unplaced, _SHOWN)}")
+    return sealed("\n".join([*text, ""]))
+
+
+def _effects(sensors: _Sensors) -> list[str] | None:
+    """The lines of the effects that have a sensor, then, behind '#', what else could be there; None where none has."""
+    lines, missing, elsewhere = [], [], []
+    for name in _PLAIN:
+        if (line := sensors.plain(name)) is not None:
+            lines.append(line)
+        elif there := sensors.anywhere(name):
+            elsewhere.append(f"{name} ({one_line(', '.join(there[0].values()))})")
+        else:
+            missing.append(name)
+    if not lines:
+        return None
+    if offered := [_line(name, fits[0]) for name in _OFFERED if (fits := sensors.fitting(name))]:
+        lines.append("# logged too, and left to thermodata diagnose; to have one now, delete its '#':")
+        lines += [f"#{line}" for line in offered]
+    if elsewhere:
+        lines.append(f"# on another axis than the response's, {sensors.axis}: {', '.join(elsewhere)}")
+    if missing:
+        lines.append(f"# no sensor for: {', '.join(missing)}")
+    return lines
 
 
 def _line(effect: str, drivers: Mapping[str, str]) -> str:

@@ -34,25 +34,39 @@ class LeftOut:
         self._query: list[str] = []  # what a query of InfluxDB says of itself
         self._mean_of = {} if exported else extremes_among(found)
         self._extremes: dict[str, str] = {}  # what a logger wrote of one that it averaged, and that one
+        self._ways = (self._as_exported, self._by_itself, self._of_query, self._of_others, self._as_extreme)
 
     def takes(self, one: OneSignal, said: Guess) -> bool:
         """Whether a signal is no channel; it is told of then."""
+        return any(way(one, said) for way in self._ways)
+
+    def _as_exported(self, one: OneSignal, said: Guess) -> bool:
+        """What an export of this program holds beside its channels."""
         last = parts_of(split_unit(one.signal.name)[0])[-1]
-        if self._exported and last in OF_TEST:
-            self._of_test.add(last)
-        elif self._exported and flags_of(one.signal.name) in self._names:
-            self._flags.append(one.written)
-        elif (why := _why_left_out(one, said, self._found)) is not None:
-            self._notes.append(f"{self._source}: '{one.written}' {why}: left out")
-        elif self._names >= _QUERY and one.signal.name in _OF_QUERY:
-            self._query.append(one.written)
-        elif _is_of_others(one):
-            self._beside.append(one.written)
-        elif (mean := self._mean_of.get(one.signal.name)) is not None:
-            self._extremes[one.written] = mean
-        else:
+        if not self._exported:
             return False
-        return True
+        if last in OF_TEST:
+            self._of_test.add(last)
+            return True
+        return _kept(self._flags, one) if flags_of(one.signal.name) in self._names else False
+
+    def _by_itself(self, one: OneSignal, said: Guess) -> bool:
+        why = _why_left_out(one, said, self._found)
+        if why is not None:
+            self._notes.append(f"{self._source}: '{one.written}' {why}: left out")
+        return why is not None
+
+    def _of_query(self, one: OneSignal, said: Guess) -> bool:
+        return self._names >= _QUERY and one.signal.name in _OF_QUERY and _kept(self._query, one)
+
+    def _of_others(self, one: OneSignal, said: Guess) -> bool:
+        return _is_of_others(one) and _kept(self._beside, one)
+
+    def _as_extreme(self, one: OneSignal, said: Guess) -> bool:
+        mean = self._mean_of.get(one.signal.name)
+        if mean is not None:
+            self._extremes[one.written] = mean
+        return mean is not None
 
     def told(self) -> tuple[str, ...]:
         """All notes on them."""
@@ -77,6 +91,11 @@ class LeftOut:
         if self._extremes:
             notes.append(extremes_note(self._source, self._extremes))
         return tuple(notes)
+
+
+def _kept(names: list[str], one: OneSignal) -> bool:
+    names.append(one.written)
+    return True
 
 
 def _why_left_out(one: OneSignal, said: Guess, found: Sequence[OneSignal]) -> str | None:
