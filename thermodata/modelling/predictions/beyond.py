@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,21 +32,32 @@ class Beyond:
 
 def beyond(fitted: FittedModel, own: Dataset, made: Sequence[Predicted]) -> list[Beyond]:
     """own: the data of the model. Of each prediction the effects that do more than in any test of the fit."""
-    found = []
+    found: list[Beyond] = []
     for response in fitted.responses:
         tests = [t for t in own.tests if t.key in response.fitted_on and response.can_predict(t)]
         ranges = {term.id: _range(term, tests) for term in response.terms}
-        for p in (p for p in made if p.response == response.name):
-            least = OF_PREDICTED * _width(p.predicted[p.known])
-            for term in response.terms:
-                low, high = ranges[term.id]
-                does = p.contributions[term.id][p.known]
-                for reaches, seen in ((does.min(initial=0.0), low), (does.max(initial=0.0), high)):
-                    if abs(reaches) - abs(seen) > max(least, OF_FITTED * (high - low)):
-                        drivers = tuple(term.binding.values())
-                        where = p.campaign, p.test, p.response, p.unit
-                        found.append(Beyond(*where, term.id, drivers, float(reaches), float(seen)))
+        for prediction in made:
+            if prediction.response == response.name:
+                found += [one for term in response.terms for one in _of_term(term, prediction, *ranges[term.id])]
     return found
+
+
+def _of_term(term: FittedTerm, prediction: Predicted, low: float, high: float) -> Iterator[Beyond]:
+    """On either side of what it does in the tests of the fit. low, high: the least and the most of that [unit]."""
+    least = max(OF_PREDICTED * _width(prediction.predicted[prediction.known]), OF_FITTED * (high - low))
+    does = prediction.contributions[term.id][prediction.known]
+    for reaches, seen in ((does.min(initial=0.0), low), (does.max(initial=0.0), high)):
+        if abs(reaches) - abs(seen) > least:
+            yield Beyond(
+                campaign=prediction.campaign,
+                test=prediction.test,
+                response=prediction.response,
+                unit=prediction.unit,
+                effect=term.id,
+                drivers=tuple(term.binding.values()),
+                reaches=float(reaches),
+                fitted=float(seen),
+            )
 
 
 def _range(term: FittedTerm, tests: Sequence[TestData]) -> tuple[float, float]:

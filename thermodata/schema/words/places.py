@@ -145,19 +145,24 @@ _BESIDE = ("cabinet", "cnc")
 _POWERED = ("cabinet", "cnc", "hydraulics", "chiller", "coolant", "lubrication", "pneumatics", "pump", "fan")
 
 
+def _body(place: str | None) -> str:
+    """'spindle' of 'spindle.motor'; '' where no place is known."""
+    return (place or "").lower().partition(".")[0]
+
+
 def is_at_tool(place: str | None) -> bool:
     """Whether a dotted place is at the tool or at a probe, where a reading may jump without a fault."""
-    return place is not None and place.lower().partition(".")[0] in _AT_TOOL
+    return _body(place) in _AT_TOOL
 
 
 def is_spindle(place: str | None) -> bool:
     """Whether a dotted place is a spindle or on one, whatever its name: spindle.motor, counter_spindle."""
-    return place is not None and place.lower().partition(".")[0].endswith("spindle")
+    return _body(place).endswith("spindle")
 
 
 def is_casting(place: str | None) -> bool:
     """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
-    return place is not None and place.lower().partition(".")[0] in (*_CASTINGS, *_ALSO_CASTINGS)
+    return _body(place) in (*_CASTINGS, *_ALSO_CASTINGS)
 
 
 def is_scale(place: str | None) -> bool:
@@ -167,7 +172,7 @@ def is_scale(place: str | None) -> bool:
 
 def is_beside(place: str | None) -> bool:
     """Whether a dotted place is of the machine, but on no body between tool and part: the cabinet, the control."""
-    return place is not None and place.lower().partition(".")[0] in _BESIDE
+    return _body(place) in _BESIDE
 
 
 def is_powered(place: str | None) -> bool:
@@ -178,7 +183,7 @@ def is_powered(place: str | None) -> bool:
 
 def is_around(place: str | None) -> bool:
     """Whether a dotted place is not of the machine, but around it: nobody heats it, and it moves by itself."""
-    return place is not None and place.lower().partition(".")[0] in AROUND
+    return _body(place) in AROUND
 
 
 AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}
