@@ -5,13 +5,20 @@ from __future__ import annotations
 import contextlib
 import re
 import time
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError, UsageError
 from thermodata.store.base import connection
 from thermodata.store.base.files import TEMPORARY, publish, temporary, write_error
 from thermodata.store.catalogue.ddl import TABLES
 from thermodata.store.catalogue.store import Store
+
+if TYPE_CHECKING:
+    import duckdb
+
+    from thermodata.store.views.catalogue import Catalogue
 
 _GRACE_S = 3600.0
 _TABLE = re.compile(r"create table (\w+)")
@@ -42,30 +49,13 @@ def snapshot(store: Store, out: Path | str) -> Path:
             f"attach {connection.literal(str(part))} as snap "
             f"(storage_version {connection.literal(connection.STORAGE_VERSION)})"
         )
-        for statement in TABLES.split(";"):
-            name = _TABLE.search(statement)
-            if name is not None:
-                con.execute(statement.replace(f"create table {name[1]}", f"create table snap.{name[1]}", 1))
-                con.execute(f"insert into snap.{name[1]} by name select * from {name[1]}")
-        wide = [connection.quoted(wide_name(group)) for group in catalogue.groups]
-        for name_ in [*wide, "residual"]:
-            con.execute(f"create table snap.{name_} as select * from memory.{name_}")
+        _copy_tables(con)
+        as_tables = [*(connection.quoted(wide_name(group)) for group in catalogue.groups), "residual"]
+        for name in as_tables:
+            con.execute(f"create table snap.{name} as select * from memory.{name}")
         listed = list(statements(con, catalogue))
         con.execute("use snap")
-        groups = {g.name: f"wide_{g.name}" for g in catalogue.groups}
-        for statement in listed:
-            begun = statement.lstrip().lower()
-            if any(
-                begun.startswith(f"{head} {name.lower()}")
-                for name in [*wide, "residual"]
-                for head in ("create view", "comment on view")
-            ):
-                continue
-            per_campaign = {
-                suffix: [g.name for g in catalogue.of(campaign) if g.columns]
-                for campaign, suffix in catalogue.campaigns.items()
-            }
-            con.execute(_from_tables(statement, groups, per_campaign))
+        _make_views(con, catalogue, [s for s in listed if not _is_of(s, as_tables)])
         con.execute("use memory")
         connection.finish(con, "snap")
         publish(part, target)
@@ -75,6 +65,33 @@ def snapshot(store: Store, out: Path | str) -> Path:
         con.close()
         connection.drop_database(part)
     return target
+
+
+def _copy_tables(con: duckdb.DuckDBPyConnection) -> None:
+    """The rows of all tables of the catalogue, into `snap`."""
+    for statement in TABLES.split(";"):
+        name = _TABLE.search(statement)
+        if name is not None:
+            con.execute(statement.replace(f"create table {name[1]}", f"create table snap.{name[1]}", 1))
+            con.execute(f"insert into snap.{name[1]} by name select * from {name[1]}")
+
+
+def _is_of(statement: str, views: Sequence[str]) -> bool:
+    """Whether a statement makes one of these views, or tells what it is."""
+    begun = statement.lstrip().lower()
+    heads = ("create view", "comment on view")
+    return any(begun.startswith(f"{head} {name.lower()}") for name in views for head in heads)
+
+
+def _make_views(con: duckdb.DuckDBPyConnection, catalogue: Catalogue, made: Sequence[str]) -> None:
+    """The other views and macros, on the tables of `snap`. made: the statements that make them in a store."""
+    groups = {g.name: f"wide_{g.name}" for g in catalogue.groups}
+    campaigns = {
+        suffix: [g.name for g in catalogue.of(campaign) if g.columns]
+        for campaign, suffix in catalogue.campaigns.items()
+    }
+    for statement in made:
+        con.execute(_from_tables(statement, groups, campaigns))
 
 
 def _sweep(target: Path) -> None:
