@@ -12,6 +12,8 @@ from thermodata_reader_cnc.mtconnect.time_series import Report
 
 _MOST_TEXT = 1 << 24  # characters of one value
 _DEEP = 256
+_DEVICE, _COMPONENT, _GROUP, _OBSERVATION = range(4)  # each within the one before
+_CELLS = ("Entry", "Cell")  # of data sets and tables
 
 
 class Observation(NamedTuple):
@@ -102,7 +104,7 @@ class Parser:
         self.parser.EntityDeclHandler = self._refuse
         self.depth = self.stop = 0
         self.device = self.component = self.group = ""
-        self.at = [0, 0, 0, 0]  # depths of device, component, group, observation (0: none)
+        self.at = [0, 0, 0, 0]  # depths of what is open, 0 where none is
         self.tag = ""
         self.attributes: dict[str, str] = {}
         self.words: list[str] = []
@@ -121,44 +123,49 @@ class Parser:
         if tag == "MTConnectStreams" and self.depth > 1:
             self.stop = self.parser.CurrentByteIndex  # expat itself runs on to the end of the part
             raise NextError
-        if self.at[3]:
-            if tag in ("Entry", "Cell"):
+        if self.at[_OBSERVATION]:
+            if tag in _CELLS:
                 self.keys.append(attributes.get("key", ""))
                 self.words, self.size = ["UNAVAILABLE"] if attributes.get("removed") == "true" else [], 0
-        elif self.at[2]:
-            self.at[3], self.tag, self.attributes = self.depth, tag, attributes
+        elif self.at[_GROUP]:
+            self.at[_OBSERVATION], self.tag, self.attributes = self.depth, tag, attributes
             self.words, self.size, self.keys, self.cells = [], 0, [], []
-        elif self.at[1]:
-            self.at[2], self.group = self.depth, tag
-        elif tag == "ComponentStream":
-            self.at[1] = self.depth
-            self.component = attributes.get("name", "").rstrip("=") or attributes.get("component", "").rstrip("=")
-        elif tag == "DeviceStream":
-            self.at[0], self.device = self.depth, attributes.get("name", "").rstrip("=")
-        elif tag == "Header":
-            header = {key: number(value) for key, value in attributes.items()}
-            self.document.instance, self.document.first = header.get("instanceId"), header.get("firstSequence")
-            self.document.next = header.get("nextSequence")
+        elif self.at[_COMPONENT]:
+            self.at[_GROUP], self.group = self.depth, tag
+        elif (opens := _OUTSIDE.get(tag)) is not None:
+            opens(self, attributes)
+
+    def _header(self, attributes: dict[str, str]) -> None:
+        header = {key: number(value) for key, value in attributes.items()}
+        self.document.instance, self.document.first = header.get("instanceId"), header.get("firstSequence")
+        self.document.next = header.get("nextSequence")
+
+    def _device(self, attributes: dict[str, str]) -> None:
+        self.at[_DEVICE], self.device = self.depth, attributes.get("name", "").rstrip("=")
+
+    def _component(self, attributes: dict[str, str]) -> None:
+        self.at[_COMPONENT] = self.depth
+        self.component = attributes.get("name", "").rstrip("=") or attributes.get("component", "").rstrip("=")
 
     def _text(self, text: str) -> None:
-        if self.at[3]:
+        if self.at[_OBSERVATION]:
             self.size += len(text)
             if self.size > _MOST_TEXT:
                 raise UntrustedError
             self.words.append(text)
 
     def _end(self, name: str) -> None:
-        if self.depth == self.at[3]:
+        if self.depth == self.at[_OBSERVATION]:
             self._observed()
-        elif self.at[3] and self.keys:
+        elif self.at[_OBSERVATION] and self.keys:
             tag = name.rsplit(":", 1)[-1]
             value = "".join(self.words).strip()
-            if tag in ("Entry", "Cell"):
+            if tag in _CELLS:
                 if value or tag == "Cell" or not any(key.startswith(f"[{self.keys[0]}][") for key, _ in self.cells):
                     self.cells.append(("".join(f"[{key}]" for key in self.keys), value))
                 self.keys.pop()
             self.words = []
-        for k in range(4):
+        for k in range(len(self.at)):
             if self.at[k] == self.depth:
                 self.at[k] = 0
         self.depth -= 1
@@ -197,6 +204,10 @@ class Parser:
         else:
             document.assets += self.tag.startswith("Asset")
             add(Observation(sequence, time, key, value))
+
+
+_OUTSIDE = {"Header": Parser._header, "DeviceStream": Parser._device, "ComponentStream": Parser._component}
+"""What begins where nothing is observed."""
 
 
 def number(text: str | None) -> int | None:
