@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,16 +12,20 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from thermodata.effect.lag import lag
-from thermodata.modelling import fit_model
+from thermodata.modelling import fit_model, run
+from thermodata.modelling.add import add
 from thermodata.modelling.compare.left_out_error import Errors, LeftOut
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions import second_lag
+from thermodata.modelling.versions.as_foretold import beside_foretold
 from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.store.catalogue.findings import save_diagnosis
 from thermodata.view.grid.dataset import Dataset
 
-from .conftest import CHANNELS, STEP, Spec, make_test
+from ..answers import candidate, diagnosis
+from .conftest import CHANNELS, STEP, Spec, Stored, make_test
 
 Answer = Callable[[Float1D], Float1D]
 
@@ -254,3 +259,35 @@ def test_each_fit_of_a_fold_runs_on_one_core(both: Model, monkeypatch: pytest.Mo
         LeftOut(both, machine(single)).errors(both)
     assert len(seen) == 5
     assert set(seen) == {1}
+
+
+def test_what_was_foretold_with_one_lag_stands_beside_what_two_give(
+    world: Dataset, spec: Spec, stored: Stored, tmp_path: Path
+) -> None:
+    """diagnose tells 3 um, the version leaves 0.2 um: neither is wrong, and add says what each is of."""
+    store = stored(world, tmp_path)
+    parent = run.fit(store, spec("spindle_bearing", name="parent"))
+    name = "lag:T_nut"
+    save_diagnosis(store, parent.model, diagnosis(candidate(name, claimed=True), model=parent.model))
+    notes = add(store, parent.model, name).notes
+    (said,) = [note for note in notes if "foretold" in note]
+    assert said.startswith("diagnose foretold 5 -> 3 um on left-out tests with one lag for each effect")
+    assert "With lag_lag2 beside them these tests" in said
+    assert said.endswith("--plain adds what was foretold")
+    assert not [note for note in add(store, parent.model, name, plain=True).notes if "foretold" in note]
+
+
+def test_what_nobody_foretold_is_set_beside_nothing() -> None:
+    lag = second_lag.SecondLag("lag", "lag_lag2", (10.0, 200.0), "min", 1.2, 0.2, "um", 4, 4)
+    other = second_lag.SecondLag("bearing", "bearing_lag2", (10.0, 200.0), "min", 0.2, 0.1, "um", 4, 4)
+    claims = [candidate(name, rank=k, claimed=True) for k, name in enumerate(("lag:T_nut", "lag:T_bed"), start=1)]
+    found = diagnosis(*claims, candidate("lag:T_air", rank=3), named_rmse_um=1.0)
+    assert beside_foretold(None, ["lag:T_nut"], [lag]) is None
+    assert beside_foretold(found, ["lag:T_nut"], []) is None
+    assert beside_foretold(found, ["lag:T_nut", "lag:by_hand"], [lag]) is None
+    assert beside_foretold(found, ["lag:T_nut", "lag:T_air"], [lag]) is None, "told of no two but all claims"
+    said = beside_foretold(found, ["lag:T_nut", "lag:T_bed"], [lag, other])
+    assert said is not None
+    assert "5 -> 1 um" in said
+    assert "With lag_lag2 and bearing_lag2 beside them" in said
+    assert "1.2 -> 0.1 um" in said

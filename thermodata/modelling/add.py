@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.run import fit_once, load
+from thermodata.modelling.versions.as_foretold import beside_foretold
 from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result
@@ -73,7 +74,9 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain and len(slips) < len(candidates):  # a slip taken out is no reason for another lag
         refined = with_second_lags(grown, old.data)
-        grown, notes = refined.spec, [*notes, *refined.notes]
+        of_one = found if found is not None and [found.response] == parent.result.responses else None
+        said = beside_foretold(of_one, names, refined.lags)
+        grown, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
     had = term_ids(parent.spec.effects)
     added = [i for i in term_ids(grown.effects) if i not in had]
     own = [e for e, i in zip(grown.effects, term_ids(grown.effects), strict=True) if i in added]
