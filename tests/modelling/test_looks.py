@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
+from thermodata.diagnosis.locked.confirm import rmse
 from thermodata.diagnosis.run import confirm_choice, diagnose
 from thermodata.modelling import run
 from thermodata.modelling.named import newest_model
@@ -99,3 +102,21 @@ def test_what_a_diagnosis_of_a_stale_model_opened_for_one_claim_is_no_look_for_i
     (claim,) = [c.id for c in diagnose(store, model).candidates if c.claimed]
     assert locked_looks(store, "c", "t7") == 1
     assert confirm_choice(store, model, claim)[0].looks == 1
+
+
+def test_a_choice_is_told_from_the_model_as_it_is_fitted(
+    stored: Stored, world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    """It is fitted to one test, and judged beside its refit to all open ones."""
+    store = stored(world, tmp_path)
+    fitted = run.fit(store, spec("ambient_frame", "spindle_bearing", calibrate_on=["t0"], verify_on=["t1", "t2", "t3"]))
+    found, _ = confirm_choice(store, fitted.model, "feed_screw:T_nut")
+    loaded = run.load(store, fitted.model)
+    own = rmse(loaded.fitted.responses[0], loaded.fitted.tests(loaded.data, "locked"))
+    assert found.locked_rmse_um_fitted == pytest.approx(own)
+    assert [t.rmse_um_fitted for t in found.tests] == [found.locked_rmse_um_fitted]
+    assert found.locked_rmse_um_before != pytest.approx(found.locked_rmse_um_fitted, rel=0.1)
+    again, known = confirm_choice(store, fitted.model, "feed_screw:T_nut")
+    assert (again, known) == (found, True)
+    whole = run.fit(store, spec("ambient_frame", "spindle_bearing", name="whole", in_sample=True))
+    assert confirm_choice(store, whole.model, "feed_screw:T_nut")[0].locked_rmse_um_fitted is None

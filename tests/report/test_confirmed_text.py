@@ -148,6 +148,30 @@ def test_a_test_that_rises_is_named_beside_what_holds_and_a_response_is_no_cause
     assert "yet" not in confirmed_text(calm)
 
 
+@pytest.mark.parametrize(
+    ("fitted", "after", "holds", "figures", "other"),
+    [
+        (None, 10.9, True, "14.2 -> 10.9 um", ""),
+        (14.3, 10.9, True, "14.2 -> 10.9 um", ""),  # nothing else is printed for what says the same
+        (19.0, 10.9, True, "19.0 (14.2 refitted to all open tests) -> 10.9 um", ""),
+        (19.0, 15.2, False, "19.0 (14.2 refitted to all open tests) -> 15.2 um", "leaves more there"),
+        (9.0, 10.9, True, "9.00 (14.2 refitted to all open tests) -> 10.9 um", "leaves less there"),
+    ],
+)
+def test_a_choice_is_told_from_the_model_that_the_user_has(
+    fitted: float | None, after: float, holds: bool, figures: str, other: str
+) -> None:
+    each = {"rmse_um_fitted": fitted, "rmse_um_before": 14.2, "rmse_um_after": after}
+    locked = {f"locked_{key}": value for key, value in each.items()}
+    test = results.TestConfirmed(campaign="c", test="last", **each)
+    said = {"model": "m", "response": "dX", "candidate": "lag:t4", "holds": holds, "parameters": {}, "looks": 1}
+    text = confirmed_text(results.Confirmed.model_validate({**said, **locked, "tests": [test]}))
+    assert figures in text.splitlines()[0]
+    assert ("the model as it is fitted leaves" in text) is bool(other)
+    assert other in text
+    assert ("as fitted [um]" in text) is ("refitted [um]" in text) is (fitted is not None)
+
+
 def small(does: float, after: float, most: float | None) -> str:
     """Of an effect that does too little in the locked tests for a verdict."""
     test = results.TestConfirmed(

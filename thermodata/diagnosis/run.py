@@ -160,7 +160,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
     locked = _locked(model, of, asked_of.data, tests)
     base = asked_of.fitted if usable else None
-    confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
+    confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base, of)
     before = kept_answer(store, model.identity, question)
     told_then = [] if before is None else Confirmed.model_validate_json(before).tests
     new = not_seen(store, model, of, name, locked, shown_again(told_then, _each_test(confirmation)))
@@ -171,13 +171,14 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         if wrong := turned_locked(fits.of([chosen]), locked, 0.0):
             upright = [t for t in locked if t.key not in wrong]
             put_right = put_right.model_copy(update={"left_out": [*put_right.left_out, *sorted(wrong)]})
-            confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, upright, base)
+            confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, upright, base, of)
     shape = confirmation.where_it_acts
     found = Confirmed(
         model=model.identity,
         response=of.name,
         candidate=name,
         holds=None,
+        locked_rmse_um_fitted=confirmation.stands,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
         locked_shape_um_before=None if shape is None else shape.before,
@@ -233,6 +234,7 @@ def _each_test(confirmation: Confirmation) -> list[TestConfirmed]:
             acts=key in confirmation.acts,
             n=samples[key],
             does_um=confirmation.does.get(key),
+            rmse_um_fitted=confirmation.stands_each.get(key),
         )
         for key, before, after in confirmation.each
     ]

@@ -127,5 +127,7 @@ class Confirmation(Shown):
 
     def html(self) -> str:
         rows: list[dict[str, Any]] = [t.model_dump() for t in self.result.tests]
-        heads = [("test", "test"), ("rmse_um_before", "before"), ("rmse_um_after", "after")]
+        own = [] if self.result.locked_rmse_um_fitted is None else [("rmse_um_fitted", "as fitted")]
+        before = "refitted" if own else "before"
+        heads = [("test", "test"), *own, ("rmse_um_before", before), ("rmse_um_after", "after")]
         return html_table(rows, heads, confirmed_text(self.result).splitlines()[0])

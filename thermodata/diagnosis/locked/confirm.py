@@ -44,12 +44,12 @@ class Confirmation:
     before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
     test: one unlucky zero must not hide that the shape fits. All are of fits to all open tests. stands: as scored, of
     the model as it is fitted to its own tests, which is what somebody has; None where it was not asked, or the refit
-    leaves as much (`AS_REFITTED`). changed: RMS of what the addition changes there. each: (key, error before, error
-    after) of every locked test. shapes: of every one, too. asked: the keys of those that decide, for a claim acts
-    there; None: all. acts: the keys of those in which the candidates themselves act, fitted beside the model as it
-    stands (`ACTS`). does: how much they do in each, about its mean. most: in the open test in which they do most.
-    implausible: what is said of gains that are larger than anything known, by candidate. fitted: with the candidates,
-    to all open tests.
+    leaves as much (`AS_REFITTED`). stands_each: the same of every locked test, by its key. changed: RMS of what the
+    addition changes there. each: (key, error before, error after) of every locked test. shapes: of every one, too.
+    asked: the keys of those that decide, for a claim acts there; None: all. acts: the keys of those in which the
+    candidates themselves act, fitted beside the model as it stands (`ACTS`). does: how much they do in each, about its
+    mean. most: in the open test in which they do most. implausible: what is said of gains that are larger than anything
+    known, by candidate. fitted: with the candidates, to all open tests.
     """
 
     before: float | None
@@ -67,6 +67,7 @@ class Confirmation:
     implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     fitted: FittedResponse | None = None
     stands: float | None = None
+    stands_each: Mapping[tuple[str, str], float] = field(default_factory=dict)
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
@@ -123,6 +124,7 @@ def confirm(
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
     found, terms = more.parameters(), _terms(more, base, candidates)
+    own = None if stands is None else _told_apart(rmse(stands, usable), rmse(ours, usable))
     does, most = _sizes(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable)
     return Confirmation(
         rmse(ours, usable),
@@ -140,8 +142,13 @@ def confirm(
         most=most,
         implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
         fitted=theirs,
-        stands=None if stands is None else _told_apart(rmse(stands, usable), rmse(ours, usable)),
+        stands=own,
+        stands_each={} if own is None or stands is None else _each_error(stands, usable),
     )
+
+
+def _each_error(response: FittedResponse, tests: Sequence[TestData]) -> dict[tuple[str, str], float]:
+    return {t.key: error for t in tests if (error := rmse(response, [t])) is not None}
 
 
 def _told_apart(stands: float | None, refitted: float | None) -> float | None:

@@ -8,6 +8,7 @@ from thermodata.report.text.candidates import candidates_text
 from thermodata.report.text.fit import spots_text
 from thermodata.report.text.parameters import parameters_text
 from thermodata.report.text.table import table
+from thermodata.report.verdict.candidate_errors import from_fitted
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.left_over import in_parts, noise_words
 from thermodata.report.verdict.log_faults import log_faults
@@ -28,20 +29,33 @@ if TYPE_CHECKING:
 
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
-    told = [_confirmed_sentence(result), _rises_in(result), _one_lag(result), put_right(result.put_right)]
+    told = [_confirmed_sentence(result), _other_way(result), _rises_in(result), _one_lag(result)]
+    told.append(put_right(result.put_right))
     head = "; ".join(filter(None, told))
     if result.despite and result.probability is not None:
         claims, colon, why = result.despite.partition(":")
         head += f". {claims[0].upper()}{claims[1:]}, with {probability(result.probability)}{colon}{why}"
-    rows = [t.model_dump() for t in result.tests]
+    rows, refitted = [t.model_dump() for t in result.tests], result.locked_rmse_um_fitted is not None
     columns = [
         ("campaign", "campaign"),
         ("test", "test"),
-        ("rmse_um_before", "before [um]"),
+        *([("rmse_um_fitted", "as fitted [um]")] if refitted else []),
+        ("rmse_um_before", "refitted [um]" if refitted else "before [um]"),
         ("rmse_um_after", "after [um]"),
     ]
     said = f"\n{result.note}" if result.note else ""
     return f"{head}{said}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
+
+
+def _other_way(result: Confirmed) -> str:
+    """That the model as it is fitted says otherwise than its refit, which a choice is judged beside; '' else."""
+    before, after, fitted = result.locked_rmse_um_before, result.locked_rmse_um_after, result.locked_rmse_um_fitted
+    if before is None or after is None or fitted is None or (after < fitted) == (after < before):
+        return ""
+    return (
+        "that is beside the refitted model, which has all of these but the effect; the model as it is fitted leaves "
+        f"{'more' if after < fitted else 'less'} there, as scored, than with it"
+    )
 
 
 def _rises_in(result: Confirmed) -> str:
@@ -50,7 +64,8 @@ def _rises_in(result: Confirmed) -> str:
         return ""
     several = len({t.campaign for t in result.tests}) > 1
     rising = [
-        f"{f'{t.campaign}/' if several else ''}{t.test}, {number(t.rmse_um_before)} -> {number(t.rmse_um_after)} um"
+        f"{f'{t.campaign}/' if several else ''}{t.test}, "
+        + from_fitted(t.rmse_um_fitted, t.rmse_um_before, t.rmse_um_after)
         for t in result.tests
         if t.acts and t.rmse_um_after > _RISES * t.rmse_um_before
     ]
@@ -65,7 +80,7 @@ _START = "the course fits and where it starts does not (a test that began warm, 
 def _confirmed_sentence(result: Confirmed) -> str:
     """By its shape, with a free offset a test, and as scored; where these say otherwise both are told."""
     before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
-    scored = "" if before is None or after is None else f"{number(before)} -> {number(after)} um"
+    scored = "" if before is None or after is None else from_fitted(result.locked_rmse_um_fitted, before, after)
     if result.holds is None:
         if clear := _clear_though_small(result, scored):
             return clear

@@ -113,10 +113,20 @@ def on_locked(one: Candidate) -> tuple[str, bool]:
     before, after, fitted = one.locked_rmse_um_before, one.locked_rmse_um_after, one.locked_rmse_um_fitted
     if before is None or after is None:
         return "", False
-    if fitted is None or math.isclose(fitted, before, rel_tol=SAME):
-        return f"{number(before)} -> {number(after)} um", after < before
-    beside = f"{number(before)} refitted to all open tests"
-    return f"{number(fitted)} ({beside}) -> {number(after)} um", after < fitted
+    return from_fitted(fitted, before, after), after < users_own(fitted, before)
+
+
+def from_fitted(fitted: float | None, refitted: float, after: float) -> str:
+    """The errors of a model as it is fitted, refitted to all open tests, and with more: the first where it is known and
+    says otherwise than the second."""
+    own = users_own(fitted, refitted)
+    beside = "" if own == refitted else f" ({number(refitted)} refitted to all open tests)"
+    return f"{number(own)}{beside} -> {number(after)} um"
+
+
+def users_own(fitted: float | None, refitted: float) -> float:
+    """The error of the model as it is fitted, or of its refit where that says the same."""
+    return refitted if fitted is None or math.isclose(fitted, refitted, rel_tol=SAME) else fitted
 
 
 def not_borne_out(one: Candidate) -> str:

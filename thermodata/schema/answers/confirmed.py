@@ -16,6 +16,8 @@ class TestConfirmed(Result):
     acts: whether the effect does there at least a fifth of what it does in the open test in which it does most
     n: samples that count; null in an answer of an older version
     does_um: how much the effect does there, about its mean, in the response's unit; null in one of an older version
+    rmse_um_fitted: free-run error of the model as it is fitted, for the one before is refitted to all open tests; null
+        where that leaves as much on all locked tests together, or in an answer of an older version
     """
 
     campaign: str
@@ -25,6 +27,7 @@ class TestConfirmed(Result):
     acts: bool = True
     n: int | None = None
     does_um: float | None = None
+    rmse_um_fitted: float | None = None
 
 
 class Confirmed(Result):
@@ -38,7 +41,9 @@ class Confirmed(Result):
     holds_by_shape: whether there the error about each test's mean falls by what a cause would take away; beside `holds`
         false, the course fits and where it starts does not; null as `holds`
     why: the reason, in a sentence
-    locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
+    locked_rmse_um_fitted: error over all locked tests of the model as it is fitted, which is the one that the user has;
+        null where the one before, refitted to all open tests, leaves as much, or in an answer of an older version
+    locked_rmse_um_before: the same of the model refitted to all open tests without the effect, in the response's unit
     locked_rmse_um_after: with it
     locked_shape_um_before: the same over those in which it acts, a free offset for each, which is what `holds_by_shape`
         goes by
@@ -59,6 +64,7 @@ class Confirmed(Result):
     holds: bool | None
     holds_by_shape: bool | None = None
     why: str | None = None
+    locked_rmse_um_fitted: float | None = None
     locked_rmse_um_before: float | None
     locked_rmse_um_after: float | None
     locked_shape_um_before: float | None = None
