@@ -167,6 +167,9 @@ DIAGNOSIS = Diagnosis(
             rmse_um_after=0.4,
             fit_before=50.0,
             fit_after=90.0,
+            locked_rmse_um_fitted=2.4,
+            locked_rmse_um_before=1.6,
+            locked_rmse_um_after=0.5,
         )
     ],
     artefacts=[Artefact(kind="step", campaign="shop", test="two", at_s=30.0, size_um=5.0, why="a slip")],
@@ -188,6 +191,8 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
         ]
         assert con.execute("select test, from_s, state from weak_spot").fetchall() == [("one", 0.0, "heating")]
         assert con.execute("select effect, drivers, claimed from candidate").fetchall() == [("lag", ["T_a"], True)]
+        locked = ", ".join(f"locked_rmse_um_{when}" for when in ("fitted", "before", "after"))
+        assert con.execute(f"select {locked} from candidate").fetchall() == [(2.4, 1.6, 0.5)]
     save(filled, "m2")  # of several responses each is diagnosed by itself, in a model of its own or anew
     save_diagnosis(filled, "m2", DIAGNOSIS.model_copy(update={"response": "dX"}))
     with filled.reader() as con:
@@ -196,7 +201,9 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
                 ("m1", "dZ"),
                 ("m2", "dX"),
             ]
-            added = ["response", "campaigns", "stale"] if view == "candidate" else ["response"]
+            added = ["response"]
+            if view == "candidate":
+                added += ["campaigns", "stale", "locked_rmse_um_fitted"]
             columns = con.sql(f"select * from {view}").columns
             assert columns[-len(added) :] == added, "what stood before keeps its place"
     save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])

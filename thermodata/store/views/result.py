@@ -69,7 +69,8 @@ select {_OWN}, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payl
        cast(payload->'$.beside' as varchar[]) as beside,
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
        payload->>'$.why' as why, {_ASKED} as response, {_CAMPAIGNS} as campaigns,
-       {_STALE.format("finding")} as stale
+       {_STALE.format("finding")} as stale,
+       cast(payload->>'$.locked_rmse_um_fitted' as double) as locked_rmse_um_fitted
 from finding where kind = 'candidate'"""
 
 ARTEFACT = f"""create view artefact as
@@ -148,7 +149,8 @@ _COMMENTS = {
         "rmse_um_after": _OF_RESPONSE,
         "fit_before": "[%]",
         "fit_after": "[%]",
-        "locked_rmse_um_before": _OF_RESPONSE,
+        "locked_rmse_um_fitted": f"{_OF_RESPONSE}; the model as it is fitted; NULL where its refit leaves as much",
+        "locked_rmse_um_before": f"{_OF_RESPONSE}; the model refitted to all open tests",
         "locked_rmse_um_after": _OF_RESPONSE,
     },
     "artefact": {"at_s": "[s] from the start of the test", "size_um": _OF_RESPONSE},

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import duckdb
 
 # to be raised with every change of what a view or macro shows: whoever opens a store of another number gets ours
-VIEWS = 12
+VIEWS = 13
 MACRO = f"create macro views_version() as {VIEWS}"
 
 
