@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from thermodata.errors import StoreError, UsageError
+from thermodata.schema.flag import Flag
 from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
 from thermodata.view.curves import window as of_windows
 from thermodata.view.curves.predictions import predictions, residual_strips
 from thermodata.view.curves.window import channels_of, read_window
@@ -280,3 +282,33 @@ def test_a_thousand_tests_are_searched_in_a_moment(build: Callable[..., Any]) ->
     assert [r.test for r in found.rows] == ["t0777"]
     assert found.rows[0].valid == pytest.approx(0.99)
     assert time.monotonic() - began < 2.0
+
+
+def test_a_sample_with_two_flags_counts_once(tmp_path: Path) -> None:
+    """A probe stands at its end for 100 rows, half of which the test does not measure."""
+    rows = [f"{k};{10.0 if 100 <= k < 200 else 3 + k % 5};{20 + k % 3};{int(k >= 150)}" for k in range(300)]
+    (tmp_path / "t.csv").write_text("t [s];dZ [V];T [degC];on\n" + "\n".join(rows) + "\n")
+    (tmp_path / "campaign.yaml").write_text(
+        """schema: thermodata/campaign/1
+id: c
+machine: {id: m}
+sources:
+  log: {reader: table, files: "{test}.csv", table: {delimiter: ";", decimal: ".", time: {column: 1, unit: s}}}
+channels:
+  dZ: {source: log, signal: dZ, quantity: displacement, unit: V, axis: Z, calibration: z, sensor: {range: [0 V, 10 V]}}
+  T_bed: {source: log, signal: T, quantity: temperature, unit: degC, at: bed}
+  on: {source: log, signal: "on", quantity: state, at: table}
+calibrations:
+  z: {kind: scale, axis: Z, gain: 100 um/V, facing: -Z, increases_with: gap}
+tests:
+  - {id: t, kind: spindle, role: calibration, measuring: "on == 0"}
+"""
+    )
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, tmp_path / "campaign.yaml")
+    with store.reader() as con:
+        counts = con.execute("select channel, count(*) filter (not valid(flag)) from sample group by 1").fetchall()
+        both = f"flag & {int(Flag.SATURATED)} <> 0 and flag & {int(Flag.NOT_MEASURING)} <> 0"
+        assert con.execute(f"select count(*) from sample where channel = 'dZ' and {both}").fetchall() == [(50,)]
+    (found,) = find_tests(store, Asked()).rows
+    assert found.valid == pytest.approx(1 - sum(n for _, n in counts) / 900)

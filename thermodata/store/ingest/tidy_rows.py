@@ -42,7 +42,7 @@ def tidy_rows(
         meta |= {"verdict": dict(verdict)} if verdict else {}
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
-            meta |= {"filled": sorted(result.filled)}
+            meta |= {"filled": sorted(result.filled), "not_counting": result.not_counting}
         rows.append(
             {
                 **dataclasses.asdict(of),

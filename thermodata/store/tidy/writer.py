@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D, Loss
-from thermodata.schema.flag import CONSTANT, Flag
+from thermodata.schema.flag import CONSTANT, INVALID, Flag
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
@@ -52,12 +52,14 @@ class TidyFile:
 @dataclass(slots=True)
 class TidyResult:
     """The tidy files of one stream of a test, and what was found while they were made. flags: name -> samples;
-    problems: why channels could not be made."""
+    not_counting: samples that have a flag which keeps them out of means, or several; problems: why channels could not
+    be made."""
 
     files: list[TidyFile] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
     flags: Counter[str] = field(default_factory=Counter)
     samples: int = 0
+    not_counting: int = 0
     losses: list[Loss] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     notes: tuple[str, ...] = ()
@@ -272,6 +274,7 @@ def _count(result: TidyResult, channels: dict[str, Column]) -> None:
         if not column.flags.any():
             continue
         seen = int(np.bitwise_or.reduce(column.flags))
+        result.not_counting += int(np.count_nonzero(column.flags & np.uint16(INVALID)))
         for name, bit in _FLAGS:
             if seen & bit:
                 result.flags[name] += int(np.count_nonzero(column.flags & np.uint16(bit)))

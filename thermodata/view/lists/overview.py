@@ -25,20 +25,25 @@ _ORDER: dict[Sort, str] = {
     "error": "rmse_um desc nulls last, campaign, place",
     "valid": "valid nulls last, campaign, place",
 }
-# what ran while the test did not measure is no defect of it: saturation there is counted with 'not measuring'
+# of files of an older version, which tell how many samples each flag has: what ran while the test did not measure is no
+# defect of it, and saturation there is counted with 'not measuring'
 _RULED_OUT = ", ".join(f"'{flag.word}'" for flag in Flag if flag & INVALID)
 _TESTS = f"""
 with counted as (
     select campaign, test, cast(columns->>'$.samples' as bigint) as samples,
            unnest(coalesce(cast(columns->'$.flags' as map(varchar, bigint)), map {{}}).map_entries()) as flag
-    from file where layer = 'tidy' and part = 'test'),
+    from file where layer = 'tidy' and part = 'test' and columns->>'$.not_counting' is null),
 idle as (
     select campaign, test, lower(flag) as flag, sum(n) as n from quality_event e
     where detail = 'only while not measuring' and {OF_ITS_TEST} group by all),
 ruled_out as (
-    select c.campaign, c.test, sum(greatest(c.flag.value - coalesce(i.n, 0), 0)) as n
-    from counted c left join idle i on (i.campaign, i.test, i.flag) = (c.campaign, c.test, lower(c.flag.key))
-    where lower(c.flag.key) in ({_RULED_OUT}) group by all),
+    select campaign, test, sum(n) as n from (
+        select c.campaign, c.test, greatest(c.flag.value - coalesce(i.n, 0), 0) as n
+        from counted c left join idle i on (i.campaign, i.test, i.flag) = (c.campaign, c.test, lower(c.flag.key))
+        where lower(c.flag.key) in ({_RULED_OUT})
+        union all
+        select campaign, test, cast(columns->>'$.not_counting' as bigint) from file
+        where layer = 'tidy' and part = 'test') group by all),
 sizes as (
     select campaign, test, sum(cast(columns->>'$.samples' as bigint)) as samples, count(*) as streams
     from file where layer = 'tidy' and part = 'test' group by all),
