@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
 from thermodata.web.pages.strip import strip_svg
 from thermodata.web.render import ends, environment
 
@@ -154,6 +155,37 @@ def test_a_point_leads_back_to_the_row_of_its_file(reader: Client) -> None:
     (around,) = re.findall(r'href="(/test[^"]*show=dZ[^"]*)"', text)
     assert "from=1800" in around
     assert reader.get(html.unescape(around)).status == 200
+
+
+def test_a_point_of_a_probe_leads_back_to_the_rows_of_its_jump_test(tmp_path: Path) -> None:
+    """As `trace` does; also where the channel is derived from the probe."""
+    volts = [5.0] * 50 + [6.0] * 50 + [5.5] * 50
+    rows = (f"{0.2 * i:.1f},{level + i % 3 / 1000}" for i, level in enumerate(volts))
+    (tmp_path / "jump.csv").write_text("t [s],dZ\n" + "\n".join(rows) + "\n")
+    (tmp_path / "day.csv").write_text("t [s],dZ\n" + "".join(f"{i},{5 + i / 1000}\n" for i in range(60)))
+    (tmp_path / "campaign.yaml").write_text(
+        """schema: thermodata/campaign/1
+id: lab
+machine: {id: m1}
+sources: {log: {reader: table, files: "{test}.csv"}}
+channels:
+  dZ: {source: log, signal: dZ, quantity: displacement, unit: V, axis: Z, at: tcp, calibration: jump_z}
+  lift: {derive: "dZ + 0 um", quantity: displacement, axis: Z, at: tcp}
+calibrations:
+  jump_z: {kind: jump, axis: Z, source: log, file: jump.csv, signal: dZ, moves: [100 um, -50 um], dwell: 10 s}
+tests: [{id: day, kind: etve, role: calibration}]
+"""
+    )
+    ingest(Store(tmp_path / "thermodata.store", create=True), tmp_path / "campaign.yaml")
+    client, _ = client_of(tmp_path)
+    for channel in ("dZ", "lift"):
+        text = client.get(f"/trace?campaign=lab&test=day&channel={channel}&at=30").text
+        assert "<h3>jump_z: the rows of its jump test</h3>" in text
+        levels = re.findall(r'<td class="n">(\d+) µm</td><td class="n">([\d.]+) V</td>', text)
+        assert [int(at) for at, _ in levels] == [0, 100, 50]
+        assert [float(mean) for _, mean in levels] == pytest.approx([5.001, 6.001, 5.501], abs=1e-3)
+        assert text.count("<td>jump.csv, ") == 3
+    assert "jump_z: the rows" not in client.get("/trace?campaign=lab&test=day&channel=dZ").text, "of no sample"
 
 
 def test_a_strip_tints_by_size_and_sign() -> None:

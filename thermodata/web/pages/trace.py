@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from starlette.requests import Request
 from starlette.responses import Response
 
@@ -26,8 +28,15 @@ def show(request: Request) -> Response:
         section="/",
         command=command(desk.store_path, *words, "--verify"),
         found=found,
+        plateaus=plateaus(found),
         campaign=campaign,
         test=test,
         channel=channel,
         at_s=at_s,
     )
+
+
+def plateaus(found: dict[str, Any]) -> list[tuple[str, list[dict[str, Any]]]]:
+    """(calibration, the rows of its jump test a plateau) of the channel, and of those that it is derived from."""
+    own = [(step["calibration"], step["rows"]) for step in found.get("calibrations", ()) if step["rows"]]
+    return own + [one for operand in found.get("operands", ()) for one in plateaus(operand)]
