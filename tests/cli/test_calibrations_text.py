@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -57,3 +58,17 @@ def test_offsets_and_the_share_of_the_moves_are_told(
         if c["name"] == "jump"
     )
     assert again["move_uncertainty_um"] == (mostly or 0.001)
+
+
+def test_at_a_terminal_sentences_are_folded_and_a_pipe_has_each_in_one_line(
+    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, store = _lab(tmp_path / "lab"), tmp_path / "store"
+    path.write_text(CAMPAIGN.replace("MOVES", ""))
+    monkeypatch.setenv("COLUMNS", "100")
+    commands = [("--store", store, "ingest", path), ("--store", store, "calibrations")]
+    for words in commands:
+        assert max(map(len, say(*words).out.splitlines())) > 100, "the sentence about moves"
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    for words in commands:
+        assert max(map(len, say(*words).out.splitlines())) <= 100

@@ -9,7 +9,7 @@ import click
 
 from thermodata.cli.start.ingest import calibrations_text
 from thermodata.cli.terminal import completing
-from thermodata.cli.terminal.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, as_shown, command, plain
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.collected.records import records, written_conditions
 from thermodata.report.text.table import table
@@ -155,7 +155,7 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
         from calibration c join campaign m using (campaign)"""
     rows = rows_of(session, f"select * from ({asked})", campaign, "campaign, calibration")
     rows = [{**row, "checks": with_limits(row["checks"])} for row in rows]
-    session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
+    session.answer(rows, lambda: as_shown(calibrations_text(rows)) if rows else "no calibrations")
 
 
 @command("trace")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.terminal.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, as_shown, command, plain
 from thermodata.report.text.table import fields, table
 from thermodata.report.words.causes import said_at_ingest
 from thermodata.schema.words.sentences import with_count
@@ -42,7 +42,7 @@ def ingest_command(session: Session, campaign: Path, replace: bool) -> int:
     store = store_for(session.store_path, campaign)
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line, in_its_place=replace).to_json())
-    session.answer(summary, lambda: ingest_text(summary, _labels(store, summary["stale"])))
+    session.answer(summary, lambda: as_shown(ingest_text(summary, _labels(store, summary["stale"]))))
     step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)), is_as_sealed)
     if step is not None:
         session.say(step)

@@ -113,15 +113,20 @@ class WithActions(click.Command):
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
-    """A text that says um, in the units of the responses (`report.words.numbers.in_units`); at a terminal its sentences
-    are folded, which else would break within words. A file or a pipe has each in one line."""
-    from thermodata.report.text.table import sentences_folded
+    """A text that says um, in the units of the responses (`report.words.numbers.in_units`), `as_shown`."""
     from thermodata.report.words.numbers import in_units
     from thermodata.view.lists.response_units import response_units
 
     names = [response] if isinstance(response, str) else response
-    told = in_units(text, response_units(session.store(), names))
-    return sentences_folded(told) if sys.stdout.isatty() else told
+    return as_shown(in_units(text, response_units(session.store(), names)))
+
+
+def as_shown(text: str) -> str:
+    """At a terminal with its sentences folded, which else would break within words. A file or a pipe has each in one
+    line."""
+    from thermodata.report.text.table import sentences_folded
+
+    return sentences_folded(text) if sys.stdout.isatty() else text
 
 
 def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:
