@@ -11,4 +11,13 @@ from thermodata.web.desk import DEFAULT_STORE
 def command(store: Path, *words: str | Path) -> str:
     """'thermodata tests -c gantry'; names the store where it is not the one that a terminal would take."""
     named = [] if store == Path.cwd() / DEFAULT_STORE else ["--store", str(store)]
-    return shlex.join(["thermodata", *named, *(str(w) for w in words)])
+    return " ".join(_quoted(w) for w in ["thermodata", *named, *(str(w) for w in words)])
+
+
+def _quoted(word: str) -> str:
+    """As a shell takes it. What has quotes of its own, as queries do, stands in double ones, where that hides nothing
+    from the shell: each quote of `shlex` would be five characters."""
+    return f'"{word}"' if "'" in word and not _MEANT.intersection(word) else shlex.quote(word)
+
+
+_MEANT = set('"$`\\!')  # what a shell takes for its own within double quotes; '!' where it keeps a history
