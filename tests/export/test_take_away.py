@@ -33,8 +33,8 @@ channels:
   mode: {source: nc, signal: mode, quantity: label}
   speed: {source: nc, signal: speed, quantity: rotational_speed, unit: rpm, at: spindle}
 tests:
-  - {id: sp9000, kind: spindle, role: calibration, conditions: {speed: 9000 rpm, coolant: "on"},
-     notes: first of the day}
+  - {id: sp9000, kind: spindle, role: calibration, notes: first of the day,
+     conditions: {speed: 9000 rpm, coolant: "on", feed: 600 mm/min, run: 3}}
 """
 
 
@@ -99,6 +99,8 @@ def test_matlab_finds_what_describes_the_test(view: StoreView, tmp_path: Path) -
     export_test(view, "c", "sp9000", tmp_path / "x.mat", step="10 s")
     found = scipy.io.loadmat(tmp_path / "x.mat", simplify_cells=True)
     assert found["about"]["conditions"]["coolant"] == "on"
+    assert [found["about"]["conditions"][name] for name in ("speed", "feed", "run")] == pytest.approx([9000, 0.6, 3])
+    assert found["about"]["condition_units"] == {"speed": "rpm", "feed": "m/min"}, "of numbers with a unit"
     assert found["about"]["test"] == "sp9000"
     assert found["about"]["notes"] == "first of the day"
     assert found["about"]["start_utc"] == START + "Z"

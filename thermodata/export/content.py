@@ -12,6 +12,7 @@ import numpy as np
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Array, Float1D
 from thermodata.store.base.connection import literal, quoted
+from thermodata.store.catalogue.conditions import plain_unit
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -60,6 +61,12 @@ class Content:
     start_ns: int | None
     step: str
     streams: tuple[Stream, ...]
+
+    @property
+    def condition_units(self) -> dict[str, str]:
+        """Of the conditions that are numbers with a unit."""
+        units = {name: plain_unit(text) for name, text in self.written.items() if name in self.conditions}
+        return {name: unit for name, unit in units.items() if unit is not None}
 
     def unit(self, channel: str) -> str:
         return self.channels.get(channel, {}).get("unit", "")

@@ -38,6 +38,8 @@ def variables(content: Content) -> dict[str, Any]:
         found[TIME_EPOCH] = about["start_utc"]
     if content.conditions:
         about["conditions"] = {_safe(k): v for k, v in content.conditions.items()}
+    if content.condition_units:
+        about["condition_units"] = {_safe(k): v for k, v in content.condition_units.items()}
     about["flag_bits"] = flag_bits()
     found["about"] = about
     return found

@@ -9,6 +9,7 @@ from thermodata.schema.units.quantity import linear_conversion, normal_unit, spl
 
 # tried in this order: what a condition of a thermal test is usually given in
 _TARGETS = ("rpm", "m/min", "degC", "mm", "kW", "s", "bar", "l/min", "A", "N*m", "V", "percent", "deg", "kg", "N")
+_SHOWN = {"N*m": "N m", "percent": "%"}  # as channels have them
 
 
 def plain_value(value: Any) -> float | str | bool | None:
@@ -16,26 +17,36 @@ def plain_value(value: Any) -> float | str | bool | None:
 
     A number whose unit is unknown keeps its text, for its number alone would say nothing.
     """
+    return _plain(value)[0]
+
+
+def plain_unit(value: Any) -> str | None:
+    """The unit that `plain_value` gives a number in: '600 mm/min' -> 'm/min'; None of a text, and of a number that was
+    written without one."""
+    return _plain(value)[1]
+
+
+def _plain(value: Any) -> tuple[float | str | bool | None, str | None]:
     if value is None or isinstance(value, bool):
-        return value
+        return value, None
     if isinstance(value, int | float):
-        return float(value)
+        return float(value), None
     text = str(value)
     try:
         number, unit = split_value(text)
     except UsageError:
-        return text
+        return text, None
     if not unit:
-        return number
+        return number, None
     if normal_unit(unit) == "K":
-        return number
+        return number, "K"
     for target in _TARGETS:
         try:
             factor, offset = linear_conversion(unit, target)
         except UsageError:
             continue
-        return factor * number + offset
-    return text
+        return factor * number + offset, _SHOWN.get(target, target)
+    return text, None
 
 
 def plain_values(values: dict[str, Any]) -> dict[str, Any]:
