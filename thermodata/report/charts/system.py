@@ -11,6 +11,7 @@ from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
 from thermodata.chart.colour import DASHES
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.modelling.seen.residual_tests import Against
+from thermodata.report.words.numbers import time_unit
 from thermodata.schema.agreed.certainty import Z95
 
 
@@ -39,19 +40,20 @@ def path_styles(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, 
 
 def _step(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
     longest = max(p.step[0][-1] for p in seen.paths)
+    size, unit = time_unit(longest)
     series = [
         Series(
             p.name,
             p.unit,
             np.append(p.step[1], p.step[1][-1]),
             styles[p.name][0],
-            x=np.append(p.step[0], longest) / 3600.0,
+            x=np.append(p.step[0], longest) / size,
             dash=styles[p.name][1],
         )
         for p in seen.paths
     ]
     panel = Panel("response to a unit of each drive", seen.unit, series, height=230, zero=True)
-    return Chart(f"Step responses of {seen.response}", Axis("time", "h"), np.array([0.0, longest / 3600.0]), [panel])
+    return Chart(f"Step responses of {seen.response}", Axis("time", unit), np.array([0.0, longest / size]), [panel])
 
 
 def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
@@ -79,7 +81,8 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
 
 
 def _memory(seen: Seen) -> Chart:
-    hours = np.arange(len(seen.correlation), dtype=np.float64) * np.float64(seen.step_s / 3600.0)
+    lags_s = np.arange(len(seen.correlation), dtype=np.float64) * np.float64(seen.step_s)
+    size, unit = time_unit(float(lags_s[-1]) if len(lags_s) else 0.0)
     band = Z95 / math.sqrt(max(seen.count, 1))
     limits = [Limit(band, "white within"), Limit(-band, "")]
     series = Series("autocorrelation", "1", seen.correlation, "residual", style="area", label="")
@@ -88,8 +91,8 @@ def _memory(seen: Seen) -> Chart:
     )
     return Chart(
         f"How long the residual of {seen.response} remembers itself",
-        Axis("lag", "h"),
-        hours.astype(np.float64),
+        Axis("lag", unit),
+        lags_s / size,
         [panel],
     )
 

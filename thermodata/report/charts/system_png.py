@@ -14,7 +14,7 @@ import numpy as np
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen.as_system import Seen
-from thermodata.report.words.numbers import correlation_text, probability_text
+from thermodata.report.words.numbers import correlation_text, probability_text, time_unit
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.store.base.files import whole_file
 
@@ -71,19 +71,20 @@ def _look(colour: str, dash: str) -> dict[str, Any]:
 
 def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
     longest = max((p.step[0][-1] for p in seen.paths), default=3600.0)
+    size, unit = time_unit(longest)
     for p in seen.paths:
         t, y = p.step
-        axes.plot([*t / 3600.0, longest / 3600.0], [*y, y[-1]], **looks[p.name], label=f"{p.name} [{p.unit}]")
+        axes.plot([*t / size, longest / size], [*y, y[-1]], **looks[p.name], label=f"{p.name} [{p.unit}]")
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.set(
         title=folded(f"Step response of {seen.response}, a unit of each drive", TITLE_WIDE),
-        xlabel="time [h]",
+        xlabel=f"time [{unit}]",
         ylabel=f"[{seen.unit} a unit]",
     )
     if seen.paths:
         # beside the ends of the curves, which it would cover anywhere else
-        axes.set_xlim(right=LEGEND_BESIDE * longest / 3600.0)
-        axes.set_xticks([at for at in axes.get_xticks() if 0.0 <= at <= longest / 3600.0])  # no curve goes on there
+        axes.set_xlim(right=LEGEND_BESIDE * longest / size)
+        axes.set_xticks([at for at in axes.get_xticks() if 0.0 <= at <= longest / size])  # no curve goes on there
         axes.legend(fontsize="small", loc="center right")
 
 
@@ -127,15 +128,16 @@ def folded(text: str, wide: int) -> str:
 
 
 def _correlation(axes: Any, seen: Seen) -> None:
-    hours = np.arange(len(seen.correlation)) * seen.step_s / 3600.0
-    axes.fill_between(hours, 0.0, seen.correlation, step="mid", color="#7b8794", alpha=0.5)
+    lags_s = np.arange(len(seen.correlation)) * seen.step_s
+    size, unit = time_unit(float(lags_s[-1]) if len(lags_s) else 0.0)
+    axes.fill_between(lags_s / size, 0.0, seen.correlation, step="mid", color="#7b8794", alpha=0.5)
     band = Z95 / math.sqrt(max(seen.count, 1))
     axes.axhspan(-band, band, color="#f0b429", alpha=0.35, linewidth=0)
     axes.axhline(0.0, color="0.3", linewidth=0.6)
     told = "\n".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)
     axes.set(
         title="Autocorrelation of the residual (band: 95 % of white noise)",
-        xlabel="lag [h]",
+        xlabel=f"lag [{unit}]",
         ylim=(-1.05, 1.05),
     )
     # three probabilities are wider than the axes as a part of the title

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from thermodata.schema.answers.result import Score
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
+_HOURS_FROM_S = 5400
 _SMALLEST = 1e-10  # probability that is told as a number
 _TO_COPY = re.compile(r"(\{(?:[^{}]|\{[^{}]*\})*\})")  # a line of a file, in braces, which may hold braces
 
@@ -86,11 +87,17 @@ def probability_text(p: float) -> str:
     return f"p {p:.2g}" if p >= _SMALLEST else f"p below {_SMALLEST:.0e}"
 
 
+def time_unit(longest_s: float) -> tuple[float, str]:
+    """(seconds, name) of the unit that an axis of times has best that ends there, as `duration` tells them: (60, 'min')
+    below 1.5 h, else (3600, 'h')."""
+    return (3600.0, "h") if longest_s >= _HOURS_FROM_S else (60.0, "min")
+
+
 def duration(seconds: float | None) -> str:
     """'14.0 h', '25 min', '8 s'."""
     if seconds is None or math.isnan(seconds):
         return "-"
-    if abs(seconds) >= 5400:
+    if abs(seconds) >= _HOURS_FROM_S:
         return f"{seconds / 3600:.1f} h"
     return f"{seconds / 60:.0f} min" if abs(seconds) >= 120 else f"{seconds:.3g} s"
 
