@@ -15,6 +15,7 @@ from thermodata.draft.files.ini_beside import offered_by_ini
 from thermodata.draft.files.letters_of_files import common, letters_of
 from thermodata.draft.files.sample import Sample, sample_of
 from thermodata.draft.files.sheets import sheet_like, sheets_of
+from thermodata.draft.signals.named_by_units import with_names_as_units
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
@@ -220,6 +221,9 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
     asked += [Asked(f"stands: {n}", {}) for n in recording.notes if DOUBT in n]
     left = _without_times(recording, {name for a in asked for name in a.times})
+    signals, as_units = with_names_as_units(left.signals)
+    if as_units is not None:
+        left, asked = replace(left, signals=signals), [*asked, Asked(as_units, {})]
     return replace(file, recording=left, delivered=recording, asked=tuple(asked), table=table or None)
 
 
