@@ -14,8 +14,8 @@ from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.time_questions import format_question
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.days_without_year import is_day_without_year
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.days_without_year import is_day_without_year, is_week_without_year
+from thermodata.reader.text.times.odd_stamps import guess_format, is_iso_week
 from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day
@@ -80,11 +80,14 @@ def day_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | N
 
 
 def _tells_the_day(column: int, seen: FirstRows) -> bool:
-    """Whether the cells of a column are texts that may be days: no numbers, and no dates that are read."""
+    """Whether the cells of a column are texts that may be days: no numbers, and no dates that are read. Of one day, in
+    a calendar week that says no year, times of day need none."""
     cells = [c.strip() for c in seen.column(column) if isinstance(c, str) and c.strip()]
+    if cells and all(map(is_week_without_year, cells)):
+        return len(set(cells)) > 1
     if len(cells) <= _EACH * len(seen.rows) or any(map(_is_read, cells)):
         return False
-    worded = all(is_worded_date(c) or _WEEKDAY_FIRST.fullmatch(c) for c in set(cells))
+    worded = all(is_worded_date(c) or _WEEKDAY_FIRST.fullmatch(c) or is_iso_week(c) for c in set(cells))
     named = is_time_header(seen.names[column]) or folded(seen.names[column].strip(" .:")) in _DAY_WORDS
     return worded or (named and all(re.search(r"\d", c) for c in set(cells)))
 

@@ -1,4 +1,4 @@
-"""Days that say no year (`12.03.`) beside times of day: they are no dates, and the year is asked for."""
+"""Days that say no year (`12.03.`, `KW19-1`) beside times of day: they are no dates, and the year is asked for."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from thermodata.reader.text.names.time_header import is_time_header, unit_of_tim
 from thermodata.reader.times.open_questions import YEAR
 
 _DAY = re.compile(r"(\d{1,2})(?:\.\s?|[/-])(\d{1,2})\.?")
+# a calendar week, and mostly the day in it: KW19-1, CW 19, W19-1; a W with a number alone may be a workpiece
+_WEEK = re.compile(r"(?i)(?:[KC]W[\W_]?(?P<a>\d{1,2})(?:[-/.](?P<b>[1-7]))?|W(?P<c>\d{1,2})-[1-7])")
 _SAID = re.compile(r"(?<!\d)(?:19|20)\d\d(?=\D|[01]\d[0-3]\d|$)")
 
 
@@ -20,7 +22,8 @@ def yearless_note(
     of_day: the column of the times of day."""
     for i, (name, unit) in enumerate(zip(names, units, strict=True)):
         cells = [r[i] for r in rows if i < len(r) and not is_empty(r[i])]
-        if i == of_day or not is_time_header(name) or unit_of_time(name, unit) is not None:
+        weeks = bool(cells) and all(map(is_week_without_year, cells))
+        if i == of_day or not (weeks or is_time_header(name)) or unit_of_time(name, unit) is not None:
             continue  # which counts hours
         if not cells or not all(map(is_day_without_year, cells)):
             continue
@@ -36,7 +39,15 @@ def yearless_note(
 
 
 def is_day_without_year(cell: str) -> bool:
-    """Whether a cell is a day and a month in either order, as '0.5' and '12.30' are not."""
+    """Whether a cell is a day and a month in either order, as '0.5' and '12.30' are not, or a calendar week."""
+    if is_week_without_year(cell):
+        return True
     match = _DAY.fullmatch(cell.strip())
     low, high = sorted(map(int, match.groups())) if match else (0, 0)
     return 1 <= low <= 12 and high <= 31
+
+
+def is_week_without_year(cell: str) -> bool:
+    """Whether a cell is a calendar week, with the day in it or without."""
+    match = _WEEK.fullmatch(cell.strip())
+    return match is not None and 1 <= int(match["a"] or match["c"]) <= 53

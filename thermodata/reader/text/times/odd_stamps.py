@@ -15,6 +15,7 @@ _HALF = re.compile(r"(?i)[ap]m")
 _JOINED = {8: "%Y%m%d", 12: "%Y%m%d%{hour}%M", 14: "%Y%m%d%{hour}%M%S"}
 _JOINED_CLOCK = {4: "%{hour}%M", 6: "%{hour}%M%S"}
 _ENOUGH, _FEW = 0.9, 40
+_ISO_WEEK = re.compile(r"(?:19|20)\d\d-W\d{2}-[1-7]")  # ISO 8601: 2026-W19-1, the Monday of week 19
 
 
 def guess_format(cells: Sequence[str]) -> str | None:
@@ -23,6 +24,11 @@ def guess_format(cells: Sequence[str]) -> str | None:
     some = [c.strip() for c in cells[:: max(1, len(cells) // _FEW)]]
     fitting = [text for text in dict.fromkeys(_spellings(some[0])) if _share(some, text) >= _ENOUGH] if some else []
     return fitting[0] if len(fitting) == 1 else None
+
+
+def is_iso_week(cell: str) -> bool:
+    """Whether a cell is a day by its week: 2026-W19-1."""
+    return _ISO_WEEK.fullmatch(cell) is not None
 
 
 def _share(cells: Sequence[str], text: str) -> float:
@@ -36,6 +42,9 @@ def _share(cells: Sequence[str], text: str) -> float:
 def _spellings(cell: str) -> Iterator[str]:
     """What a stamp may be in strptime's letters: day before month where a dot parts them, month before day behind a
     year, else either."""
+    if (week := _ISO_WEEK.match(cell)) is not None:
+        yield from (f"%G-W%V-%u{clock}" for clock in _clocks(cell[week.end() :]))
+        return
     parts = re.findall(r"\d+|[^\W\d_]+|[\W_]+", cell)
     words = [
         letters or ("%p" if _HALF.fullmatch(p) else None) for p, letters in zip(parts, letters_of(parts), strict=True)
@@ -64,3 +73,9 @@ def _spellings(cell: str) -> Iterator[str]:
             spelled += letters
         if not left or left[0] in ("S", "f") or (left[0] == hour and "%Y" in spelled and ":" not in cell):
             yield spelled
+
+
+def _clocks(rest: str) -> Iterator[str]:
+    """What stands behind a day, in strptime's letters: ' 08:00:00' is ' %H:%M:%S'."""
+    letters = iter(("%H", "%M", "%S", "%f"))
+    yield re.sub(r"\d+", lambda _: next(letters, "%"), rest.replace("%", "%%"))
