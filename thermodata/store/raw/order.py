@@ -65,14 +65,22 @@ def find_order(
     disorder_ns: in place of the second.
     """
     order = _looked_at(times, n, resets_allowed=False, sound=sound, disorder_ns=disorder_ns)
-    if order.keep == n:
+    seam = order.keep if order.keep < n else _small_step_back(order)
+    if seam is None:
         return order
-    if _is_ring(times, n, order):
-        note = f"a ring buffer: its oldest rows stand from row {order.keep + 1} on, and are put before the others"
+    before = order if order.keep == seam else _looked_at(times, seam, resets_allowed=False)
+    if _is_ring(times, n, before):
+        note = f"a ring buffer: its oldest rows stand from row {seam + 1} on, and are put before the others"
         return replace(by_time(times, n), notes=(note,))
-    if resets_allowed:
+    if resets_allowed and order.keep < n:
         return _looked_at(times, n, resets_allowed=True, sound=sound, disorder_ns=disorder_ns)
     return order
+
+
+def _small_step_back(order: Order) -> int | None:
+    """The row of the one step back that was joined, for a time server may have made it, as the seam of a buffer of two
+    minutes may be; None where there is none, or more than that."""
+    return int(order.at[0]) if len(order.at) == 1 and not order.shifts[0] and order.shifts[1] > 0 else None
 
 
 def _is_ring(times: Times, n: int, order: Order) -> bool:
