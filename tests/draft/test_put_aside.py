@@ -49,6 +49,28 @@ def test_the_pieces_of_one_log_from_the_oldest_on() -> None:
     ]
 
 
+def test_the_backups_of_a_logger_are_pieces_of_its_table(tmp_path: Path) -> None:
+    """LoggerNet puts a table's file aside where its header changed: here by a channel more."""
+    names = ["a.dat.2.backup", "a.dat", "a.dat.backup", "a.dat.1.backup"]
+    by_age = ["a.dat.backup", "a.dat.1.backup", "a.dat.2.backup", "a.dat"]
+    assert sorted(names, key=lambda n: age(PurePosixPath(n))) == by_age
+    assert {unrotated(PurePosixPath(n)).name for n in names} == {"a.dat"}
+    for k, name in enumerate(by_age[1:]):
+        of_nut = k > 1
+        head = ["TIMESTAMP", "RECORD", "T_bed", *(["T_nut"] if of_nut else [])]
+        units = ["TS", "RN", *["Deg C"] * (len(head) - 2)]
+        rows = [[f"2026-03-02 {8 + k:02d}:{i:02d}:00", i, f"{20 + k + i / 100:.2f}", "21.5"] for i in range(60)]
+        lines = [["TOA5", "CR", "CR1000"], head, units, ["", "", "Avg", "Avg"][: len(head)], *rows]
+        text = "\n".join(",".join(f'"{c}"' for c in line[: len(head)]) for line in lines)
+        (tmp_path / name).write_text(f"{text}\n")
+    assert len(draft_files(tmp_path).draft.sources) == 1
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, tmp_path / "campaign.yaml")
+    with store.reader() as con:
+        found = con.execute("select test, count(*), max(t_s) from sample where channel = 'T_bed' group by 1").fetchall()
+    assert found == [("a", 180, 2 * 3600 + 59 * 60.0)]
+
+
 def test_undated_pieces_are_asked_as_one_test_the_oldest_first(tmp_path: Path) -> None:
     for k, name in enumerate(("a.log.2", "a.log.1", "a.log")):
         (tmp_path / name).write_text(piece(k))

@@ -1,11 +1,13 @@
-"""Pieces of one log that were put aside, as logrotate does: `a.log.2` is older than `a.log.1`, and `a.log` goes on."""
+"""Pieces of one log that were put aside, as logrotate does: `a.log.2` is older than `a.log.1`, and `a.log` goes on; as
+Campbell's LoggerNet does where the header of a table changed: `a.dat.backup`, then `a.dat.1.backup`, and `a.dat` goes
+on."""
 
 from __future__ import annotations
 
 import re
 from pathlib import PurePosixPath
 
-_ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.(?P<number>\d{1,3})|[.-](?P<day>\d{8}))$")
+_ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.(?P<number>\d{1,3})|[.-](?P<day>\d{8})|(?:\.(?P<kept>\d{1,3}))?\.backup)$")
 _PACKED = re.compile(r"(?i)(?<=[^.])\.(?:gz|bz2|xz)$")
 
 
@@ -28,4 +30,6 @@ def age(path: PurePosixPath) -> tuple[int, int]:
     found = _ROTATED.search(path.name) if unrotated(path) != path else None
     if found is None:
         return 2, 0
-    return (0, -int(found["number"])) if found["number"] else (1, int(found["day"]))
+    if found["number"]:
+        return 0, -int(found["number"])
+    return 1, int(found["day"] or found["kept"] or 0)
