@@ -49,3 +49,22 @@ def test_one_without_the_others_is_a_channel(tmp_path: Path, say: Say, names: li
 def test_limits_beside_a_reading_are_none_of_its_extremes(tmp_path: Path, say: Say) -> None:
     names = ["dX [um]", "dX_min [um]", "dX_max [um]"]
     assert drafted(tmp_path, say, names, limits=True)[0] == [*names, "T_bed [degC]"]
+
+
+def test_the_last_reading_of_a_mean_is_no_channel_beside_it(tmp_path: Path, say: Say) -> None:
+    """Campbell's tables: T_Avg, T_Last; what alone is called the last is the reading."""
+    head = [
+        '"TOA5","CR","CR1000X"',
+        '"TIMESTAMP","RECORD","T_bed_Avg","T_bed_Last","dX_Last"',
+        '"TS","RN","Deg C","Deg C","um"',
+        '"","","Avg","Last","Last"',
+    ]
+    rows = (f'"2026-03-13 08:{k:02d}:00",{k},{20 + k / 50:.2f},{20 + k / 49:.2f},{k / 9:.3f}' for k in range(60))
+    (tmp_path / "S4000.dat").write_text("\n".join([*head, *rows, ""]), "utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text("utf-8")
+    assert re.findall(r"^  \w+: {source: log, signal: (\w+), quantity: \w", text, re.MULTILINE) == [
+        "T_bed_Avg",
+        "dX_Last",
+    ]
+    assert "T_bed_Last: left out" in text

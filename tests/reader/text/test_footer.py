@@ -21,6 +21,8 @@ from thermodata.reader.text.rows.footer import footer_notes, is_footer
         ["$RT_COUNT$", "5965", "", ""],
         ["--- END ---"],
         ["Fin de fichier"],
+        ["Last", "", "24.1"],
+        ["Letzter Wert", "22,5"],
     ],
 )
 def test_statistics_and_marks_of_the_end_are_footers(cells: list[object]) -> None:

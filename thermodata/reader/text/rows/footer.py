@@ -13,6 +13,7 @@ _STATISTIC = re.compile(
     r"(std|sd|stdev|std[ ._-]?(dev|abw)(iation|eichung)?|standard[ -]?(deviation|abweichung))|rms|effektivwert|"
     r"(grenzwert|limit|alarm)[ -]?(verletzung(en)?|überschreitung(en)?|violations?|exceedances?|count)|"
     r"varian[cz]e?|sum|summe|total|gesamt|range|spann(e|weite)|peak[ -]?(to[ -]?)?peak|count|anzahl|"
+    r"last([ -]?(value|reading))?|letzter?([ -]?wert)?|"
     r"(minim|maxim)(um|ální)|průměr|moyenne|écart[ -]type|minimo|máximo|massimo|media|promedio|"
     r"(最大|最小|平均|中央|合計|合计|总计)[値值]?|(標準|标准)偏?差|최대값?|최소값?|평균값?|합계"
 )
