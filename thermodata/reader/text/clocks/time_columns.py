@@ -17,6 +17,7 @@ from thermodata.reader.text.clocks.transposed import ADVICE, is_transposed
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside
 from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.names.of_text import OF_TEXT
 from thermodata.reader.text.names.time_header import is_time_header, since_midnight
 from thermodata.reader.text.times.clock_numbers import columns_of_clock
 from thermodata.reader.text.times.date_parts import find_parts
@@ -71,11 +72,12 @@ def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Columns:
-    """What the columns of a table look like. filled: the cells of each that hold something; words: those that are
-    called a time; dates: those of dates that go on; standing: those of dates that do not tell its rows apart; clocks:
-    of times of day; numbers: of those that are called a time."""
+    """What the columns of a table look like. places: those that may be a time; filled: the cells of each that hold
+    something; words: those that are called a time; dates: those of dates that go on; standing: those of dates that do
+    not tell its rows apart; clocks: of times of day; numbers: of those that are called a time."""
 
     seen: FirstRows
+    places: Sequence[int]
     filled: Sequence[Sequence[Cell]]
     words: Sequence[int]
     dates: Sequence[int]
@@ -85,8 +87,10 @@ class _Columns:
 
 
 def _looked_at(seen: FirstRows, likely: tuple[int, ...]) -> _Columns:
-    places = range(len(seen.names))
+    places = list(range(len(seen.names)))
     filled = [[r[i] for r in seen.rows if r[i] not in ("", None)] for i in places]
+    # a moment in a comment is none of a row's
+    places = [i for i in places if not (OF_TEXT.search(seen.names[i]) and 2 * len(filled[i]) < len(seen.rows))]
     words = [i for i in places if i in likely or is_time_header(seen.names[i])]
     dates = [i for i in places if _are(filled[i], is_dated, 0.8)]
     dashed = [i for i in dates if are_dashed_clocks(filled[i])]  # beside a date they are times of day
@@ -103,7 +107,7 @@ def _looked_at(seen: FirstRows, likely: tuple[int, ...]) -> _Columns:
         standing |= {i for i in dates if _days_of_many_rows(filled[i])}
     if len(standing) == len(dates) and not (counting or _parts_go_on(seen)):
         standing = set()
-    return _Columns(seen, filled, words, [i for i in dates if i not in standing], standing, clocks, numbers)
+    return _Columns(seen, places, filled, words, [i for i in dates if i not in standing], standing, clocks, numbers)
 
 
 def _are(cells: Sequence[Cell], test: Callable[[Cell], bool], least: float) -> bool:
@@ -152,8 +156,7 @@ def _by_spans(of: _Columns) -> tuple[int, ...]:
 
 
 def _by_damaged_dates(of: _Columns) -> tuple[int, ...]:
-    places = (i for i in range(len(of.seen.names)) if i not in of.standing)
-    return tuple(islice((i for i in places if _are(of.filled[i], is_dated, 0.3)), 1))
+    return tuple(islice((i for i in of.places if i not in of.standing and _are(of.filled[i], is_dated, 0.3)), 1))
 
 
 def _named(header: str) -> bool:

@@ -9,9 +9,9 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
 from thermodata.reader.text.cells.number import EXACT, decimal_mark, is_number, may_be_thousands, to_bool, to_float
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.names.of_text import OF_TEXT
 from thermodata.reader.times.open_questions import UNKNOWN
 
-_TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemerk|kommentar|meldung|pozn|hinweis")
 # of fewer digits than an integer that float64 would change has
 _PLAIN = re.compile(r"(?:[+-]?\d{1,15}(?:[.,]\d{1,15})?(?:\n|\Z))+", re.ASCII)
 _INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
@@ -33,12 +33,12 @@ def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> s
         return "float64"
     full = [c for c in map(clean, cells) if c.casefold() not in EMPTY and c.casefold() not in OVERLOAD]
     if not full:
-        return "str" if unit is None and _TEXT_NAME.search(name) else "float64"
+        return "str" if unit is None and OF_TEXT.search(name) else "float64"
     if all(to_bool(c) is not None for c in full):
         return "bool"
     numbers = sum(is_number(c) or to_bool(c) is not None for c in full)
     words = len(full) - numbers
-    if 2 * words >= len(full) or (words > max(1, 0.02 * len(full)) and _TEXT_NAME.search(name)):
+    if 2 * words >= len(full) or (words > max(1, 0.02 * len(full)) and OF_TEXT.search(name)):
         return "str"
     if not words and all(_INTEGER.fullmatch(c) for c in full):
         most = max(abs(int(c)) for c in full)
