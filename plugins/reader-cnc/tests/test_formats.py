@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from thermodata_reader_cnc import Reader
+from thermodata_reader_cnc import Reader, export
 from thermodata_reader_cnc.formats import FORMATS, Format, claimed, module_of
 
-from thermodata.plugin import Head, Source
+from thermodata.plugin import Block, Head, Source
+from thermodata.reader.finding.registry import head
 from thermodata.testing.reader import load
 
 START = "2026-03-02T08:00:0"
@@ -51,6 +53,27 @@ def test_a_format_claims_its_own_example(each: Format) -> None:
     assert module_of(head) is each.module
     assert Reader().heads[each.name] == each.module.EXAMPLE
     assert Reader().sniff(head) == found[1]
+
+
+def test_a_file_is_told_once_for_its_claim_its_signals_and_its_rows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    claims = export.claims
+
+    def counted(lines: Sequence[str]) -> str | None:
+        asked.append(len(lines))
+        return claims(lines)
+
+    monkeypatch.setattr(export, "claims", counted)
+    path, reader = tmp_path / "a.csv", Reader()
+    rows = [f"02.03.2026;08:{k // 60:02d}:{k % 60:02d};{k}" for k in range(300)]
+    for more in ([], ["02.03.2026;08:05:00;300"]):  # what was written since is another file
+        path.write_text("\n".join(["Datum;Uhrzeit;n [1/min]", *rows, *more, ""]))
+        assert reader.sniff(head(path)) is not None
+        assert len(reader.describe(path, Source()).signals) == 1
+        assert sum(len(b.t_ns) for b in reader.blocks(path, Source()) if isinstance(b, Block)) == 300 + len(more)
+    assert len(asked) == 2
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Protocol
 
@@ -62,6 +63,7 @@ FORMATS = (
 )
 
 
+@lru_cache(maxsize=32)  # one file is asked for when it is claimed, described and read
 def claimed(head: Head) -> tuple[Format, str] | None:
     """(the format of a file, the reason for claiming it), or None."""
     lines = head_lines(head)
