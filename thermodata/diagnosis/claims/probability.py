@@ -31,10 +31,7 @@ TOLD_APART = 0.93
 def probability(scored: Scored) -> float:
     """That a sound candidate is what is missing: the share that was right among those like it, on simulated machines
     (development seeds); once the lock is open, with what the locked tests say."""
-    own = _log_odds(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten)
-    there = max((p for _, p in scored.also_on), default=0.0)
-    own += BORNE_OUT * _logit(there) if there > 0.5 else 0.0
-    return _share(own + (0.0 if scored.looked is None else scored.looked.log_odds))
+    return _share(_on_open_tests(scored) + (0.0 if scored.looked is None else scored.looked.log_odds))
 
 
 def may_be_borne_out(scored: Scored) -> bool:
@@ -58,11 +55,24 @@ def at_best(scored: Scored, samples: int) -> float:
     return _share(_log_odds(scored.evidence / max(samples, 1), FALLS[1], scored.candidate))
 
 
+def _on_open_tests(scored: Scored) -> float:
+    """Its log odds before the lock is opened."""
+    own = _log_odds(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten)
+    there = max((p for _, p in scored.also_on), default=0.0)
+    return own + (BORNE_OUT * _logit(there) if there > 0.5 else 0.0)
+
+
 def _log_odds(a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False) -> float:
     level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder, by_lesser = PROBABILITY
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
-    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * bool(of.unread)
+    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * may_be_another_cause(of)
     return float(odds + by_one_of_several * (of.kin == "part") + by_holder * of.of_holder + by_lesser * of.lesser)
+
+
+def may_be_another_cause(of: CandidateEffect) -> bool:
+    """Whether another part that it may be as well is warmed by something else: what stands in the same air is moved by
+    the same cause."""
+    return bool(of.unread) and not of.around
 
 
 def _share(log_odds: float) -> float:
@@ -83,8 +93,11 @@ def sharpness_asked(fall: float, of: CandidateEffect) -> float:
 def elsewhere(scored: Scored) -> tuple[str, ...]:
     """Places of other parts that it may be as well, which run at the same hours in locked tests, too. A motion has the
     timing of no part."""
-    told = probability(replace(scored, looked=None)) >= TOLD_APART and not scored.candidate.of_motion
-    return () if told else scored.candidate.unread
+    of = scored.candidate
+    own = _on_open_tests(scored)
+    if of.unread and not may_be_another_cause(of):
+        own += PROBABILITY[5]  # which part it is, is no surer for its being the air
+    return () if own >= _logit(TOLD_APART) and not of.of_motion else of.unread
 
 
 def limit_of(scored: Scored) -> float:

@@ -9,7 +9,13 @@ import numpy as np
 
 from thermodata.diagnosis.claims.broken import too_few, too_little, unlike
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
+from thermodata.diagnosis.claims.probability import (
+    limit_of,
+    may_be_another_cause,
+    may_be_confirmed,
+    probability,
+    sharpness,
+)
 from thermodata.diagnosis.question.present import CONTROL
 from thermodata.diagnosis.weigh.figures import HARDLY, from_to, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
@@ -187,7 +193,7 @@ def _in_short(scored: Scored) -> str:
         more.append("the model reads it already, together with others")
     if scored.candidate.of_holder:
         more.append("it reads the tool, or what holds the probes, which warms with all in the working space")
-    if scored.candidate.unread:
+    if may_be_another_cause(scored.candidate):
         more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
     more += [also_missing(scored)] if scored.also_on else []
     if scored.looked is not None and scored.looked.saying:
