@@ -44,6 +44,7 @@ DIAGNOSIS = {
     "responses",
     "by_choice",
     "not_asked",
+    "locked_unasked",
     "started_on",
     "named_rmse_um",
     "modelled_rmse_um",

@@ -25,7 +25,10 @@ class Response:
     checks: tuple[Check, ...] = ()
 
     def can_predict(self, test: TestData) -> bool:
-        return test.test in self.left
+        return self.why_not(test) is None
+
+    def why_not(self, test: TestData) -> str | None:
+        return None if test.test in self.left else f"no '{self.name}'"
 
     def residual(self, test: TestData) -> Float1D:
         return self.left[test.test]

@@ -28,8 +28,8 @@ from thermodata.view.grid.dataset import Dataset, TestData
 class Case:
     """fitted: the model as it stands, to tests as they were logged. index: of the response among the model's responses.
     logged: its open tests, likewise. sound: what the question is asked of. beside: the same with the response's effects
-    as they are beside its slips. locked: the tests that can be predicted and are no copies of open ones. faults: of the
-    logs, that were known before anything was asked."""
+    as they are beside its slips. locked: the tests that can be predicted and are no copies of open ones; shut: the
+    others, and why each can't be asked. faults: of the logs, that were known before anything was asked."""
 
     fitted: FittedModel
     index: int
@@ -37,6 +37,7 @@ class Case:
     sound: Sound
     beside: Sound
     locked: tuple[TestData, ...]
+    shut: tuple[tuple[TestData, str], ...]
     faults: tuple[Artefact, ...]
     library: Mapping[str, Effect]
     seed: int
@@ -95,14 +96,15 @@ def case_of(
     asked_of = sound(fitted, index, data, [t for t in logged if response.can_predict(t)], library, ends)
     closed = fitted.tests(asked_of.data, "locked")
     same = copies(closed, logged, response.name)
-    again = {one.key for one, _ in same}
+    cannot = _cannot_be_asked(response, closed, {one.key: other for one, other in same})
     return Case(
         fitted,
         index,
         tuple(logged),
         asked_of,
         beside_slips(asked_of, index),
-        tuple(t for t in closed if response.can_predict(t) and t.key not in again),
+        tuple(t for t in closed if t.key not in cannot),
+        tuple((t, cannot[t.key]) for t in closed if t.key in cannot),
         (
             *asked_of.faults,
             *as_artefacts(same, response.name),
@@ -111,3 +113,12 @@ def case_of(
         library,
         seed,
     )
+
+
+def _cannot_be_asked(
+    response: FittedResponse, closed: Sequence[TestData], repeated: Mapping[tuple[str, str], TestData]
+) -> dict[tuple[str, str], str]:
+    """Why, by the keys of locked tests. repeated: by such a key the open test whose recording it is."""
+    why = {t.key: response.why_not(t) for t in closed}
+    copied = {key: f"a copy of the open test {other.test}" for key, other in repeated.items()}
+    return {key: said for key in why if (said := why[key] or copied.get(key)) is not None}

@@ -31,7 +31,14 @@ from thermodata.diagnosis.verdict.suspect import Supposed, doubt_of_heat, first,
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
-from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis, PutRight, ResponseLeft
+from thermodata.schema.answers.diagnosis import (
+    AtRest,
+    DetectionLimit,
+    Diagnosis,
+    LockedUnasked,
+    PutRight,
+    ResponseLeft,
+)
 from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.view.grid.dataset import Dataset
 
@@ -81,6 +88,7 @@ def in_contract(
         responses=_responses(case),
         by_choice=by_choice,
         started_on=started_with(case.response, case.logged),
+        locked_unasked=_unasked(case, found),
     )
 
 
@@ -109,6 +117,17 @@ def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded, unread
         doubt_of_heat(left, investigation.measure, known=known),
     )
     return characterise(problem, investigation.spots, supposed, unread)
+
+
+def _unasked(case: Case, found: Concluded) -> list[LockedUnasked]:
+    """The locked tests that lack what the model reads, and those that lack what is claimed."""
+    lacking = list(case.shut)
+    held = found.confirmation
+    if held is not None and held.fitted is not None:
+        asked = {s.key for s in held.shapes}
+        rest = [t for t in case.locked if t.key not in asked and t.key not in found.turned]
+        lacking += [(t, why) for t in rest if (why := held.fitted.why_not(t)) is not None]
+    return [LockedUnasked(campaign=t.campaign, test=t.test, why=why) for t, why in lacking]
 
 
 def _put_right(case: Case, found: Concluded) -> PutRight | None:

@@ -18,6 +18,7 @@ from thermodata.report.verdict.left_over import (
 )
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.verdict.twins import by_name, not_told_from
+from thermodata.report.verdict.unasked import unasked
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import CLAIMS_ASK, PLAUSIBLE
 from thermodata.schema.answers.clocks_in_doubt import clocks_in_doubt
@@ -136,10 +137,10 @@ def put_right(found: PutRight | None) -> str:
 def _verdict(found: Diagnosis) -> str:
     claims, refined = claims_of(found), refinements_of(found)
     if found.verdict == "effect" and claims:
-        return "; ".join(filter(None, [_missing(claims, found), can_be_refined(found)]))
+        return "; ".join(filter(None, [_missing(claims, found), unasked(found), can_be_refined(found)]))
     if found.verdict == "unknown":
         refined_by = told_with_errors(found, ": add {them} and ask again")
-        return "; ".join(filter(None, [_unclaimed(found), not_logged(found), refined_by]))
+        return "; ".join(filter(None, [_unclaimed(found), not_logged(found), unasked(found), refined_by]))
     # left-out tests have their level free
     far = _far_on_locked(found, found.locked_rmse_um if found.locked_shape_um is None else found.locked_shape_um)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
@@ -148,7 +149,9 @@ def _verdict(found: Diagnosis) -> str:
     as_dated = AS_DATED if doubt else ""
     if found.verdict == "refine" and refined and not any(c.as_modelled for c in refined):
         return "; ".join(
-            filter(None, [doubt, f"{NO_MORE}{as_dated}", told_with_errors(found), stays(found), open_still])
+            filter(
+                None, [doubt, f"{NO_MORE}{as_dated}", told_with_errors(found), stays(found), open_still, unasked(found)]
+            )
         )
     if found.verdict == "none" or any(c.as_modelled for c in refined):
         named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""

@@ -166,6 +166,19 @@ class NotAsked(Result):
     why: str
 
 
+class LockedUnasked(Result):
+    """A locked test that can say nothing of this response.
+
+    campaign: id
+    test: id
+    why: what it lacks: "no driver for ambient_frame (T_hall)", or whose copy it is
+    """
+
+    campaign: str
+    test: str
+    why: str
+
+
 class Diagnosis(Result):
     """Answer of diagnose.
 
@@ -207,6 +220,8 @@ class Diagnosis(Result):
     responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
     by_choice: whether the response was asked for
     not_asked: effects of the library whose plugins failed
+    locked_unasked: locked tests of the model that could not be asked: what the model or a claim reads was not logged
+        there, or they repeat an open test; empty in an answer of an older version
     started_on: open tests that begin with something on that may have run before
     data_version: digest of the data that it was asked on; null in an answer of an older version
     """
@@ -239,5 +254,6 @@ class Diagnosis(Result):
     responses: list[ResponseLeft] = []
     by_choice: bool = False
     not_asked: list[NotAsked] = []
+    locked_unasked: list[LockedUnasked] = []
     started_on: list[StartedOn] = []
     data_version: str | None = None

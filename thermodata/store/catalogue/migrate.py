@@ -19,7 +19,7 @@ STEPS: dict[int, str] = {
     1: "-- model.result and finding.payload have more keys from here on: what stands there is read as it is",
     2: "-- the same, and a campaign may leave out a quantity that its unit says; answers hold errors of whole models",
     3: "-- the same: an answer says how probable it is that nothing logged reads what is missing",
-    4: "-- the same: of a claim the error on locked tests of the model as it is fitted, why it stands, and lost tests",
+    4: "-- the same: what the model as it is fitted leaves on locked tests; why claims stand; tests lost or not asked",
 }
 
 
