@@ -88,11 +88,12 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
         return f"; locked tests{all_of} ({by})"
     if shape[1] >= shape[0]:
         if not better:
-            return f"; locked tests get worse{all_of} ({figures}, by their shape {course})"
+            return f"; locked tests get worse{all_of} ({figures}, by their shape {course}){_all_the_same(claims)}"
         than = "worse" if after > before and shape[1] > shape[0] else "no better"
         return (
             f"; locked tests{all_of} {figures}, by their shape {course} from the refitted one on: they get better than "
             f"with the model as it is fitted, and {than} than with the refitted one"
+            f"{_all_the_same(claims)}"
         )
     if better:
         scored = f"as they are scored, from their first samples on, {figures}"
@@ -104,6 +105,18 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
         f"; locked tests get better{all_of} by their shape where it acts ({course}), which a claim is judged by, and "
         f"{scored}"
     )
+
+
+def _all_the_same(claims: Sequence[Candidate]) -> str:
+    """', so they do not bear it out as it would be added; it is claimed all the same, for ...': by which rule; '' of an
+    answer of an older version."""
+    reasons = [(c, c.stands_for) for c in claims if c.stands_for is not None]
+    if not reasons:
+        return ""
+    if len(claims) == 1:
+        return f", so they do not bear it out as it would be added; it is claimed all the same, for {reasons[0][1]}"
+    each = ", and ".join(f"{c.effect}, for {why}" for c, why in reasons)
+    return f", so they do not bear all out as these would be added; they are claimed all the same: {each}"
 
 
 def on_locked(one: Candidate) -> tuple[str, bool]:

@@ -102,6 +102,8 @@ class Candidate(Result):
     locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; 0: they
         were opened only to see that they do not get twice as bad, which is a look as well; null where it is not known,
         or nothing was opened for it
+    stands_for: of a claim with which the locked tests in which it acts get no better, why it is one all the same; null
+        for all else, and in an answer of an older version
     beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
         where these are of the user's own model without and with this one; null in an answer of an older version
     as_modelled: whether errors and FITs before and after are beside the effects of the model as it has them, which are
@@ -139,6 +141,7 @@ class Candidate(Result):
     locked_shape_um_before: float | None = None
     locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None
+    stands_for: str | None = None
     beside: list[str] | None = None
     as_modelled: bool = False
     parameters: dict[str, Parameter] = {}

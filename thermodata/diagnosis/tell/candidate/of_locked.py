@@ -42,6 +42,23 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
     return figures + way_of + _as_fitted(held, unit)
 
 
+def stands_for(s: Scored, held: Confirmation) -> str | None:
+    """Why a claim stands though the locked tests in which it acts get no better with all that is claimed; None where
+    they do, or none of them was asked."""
+    shape, looked = held.on(held.asked), s.looked
+    if shape is None or looked is None or shape.after < shape.before:
+        return None
+    falls = [f for f in looked.saying if f.falls]
+    if not falls:
+        return "what is left there to be foretold is too little to speak against it"
+    freed = looked.foretold in falls
+    where = f"where {_OTHERWISE}" if freed else "with it alone, beside all else that is claimed"
+    said = f"their error {in_words(looked.foretold if freed else falls[0], looked.unit)} {where}"
+    if not looked.bears_out:
+        return f"{said}, less than a cause mostly takes away, but the open tests outweigh that"
+    return f"{said}, and only what lets it fall in neither way is refused" if freed else said
+
+
 def _as_fitted(held: Confirmation, unit: str) -> str:
     """What the model as it is fitted leaves there, where that says otherwise than a refit to all open tests does."""
     if held.stands is None or held.before is None or math.isclose(held.stands, held.before, rel_tol=_SAME):

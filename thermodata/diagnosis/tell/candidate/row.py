@@ -11,6 +11,7 @@ from thermodata.diagnosis.candidates.unread import motors_of, reads
 from thermodata.diagnosis.claims.probability import elsewhere, probability
 from thermodata.diagnosis.tell.candidate import ladder
 from thermodata.diagnosis.tell.candidate.of_claim import heats_its_motor
+from thermodata.diagnosis.tell.candidate.of_locked import stands_for
 from thermodata.diagnosis.tell.candidate.told import Told
 from thermodata.diagnosis.tell.candidate.why import why
 from thermodata.diagnosis.tell.listing.advised import as_added
@@ -55,6 +56,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
+        stands_for=stands_for(s, held) if held else None,
         as_modelled=s.as_modelled,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         beside=[] if told.of_model else list(told.others),
