@@ -92,6 +92,7 @@ def test_figures_rules_and_reason_of_a_row_are_of_one_thing(of_a_missing_screw: 
     assert (lagged.p_value, lagged.evidence, lagged.beside) == (screw.p_value, screw.evidence, screw.beside)
     assert lagged.rungs == screw.rungs
     figures = lagged.why.partition(" told as that: ")[2].partition("; not claimed")[0]
+    assert f"the error falls ({screw.acting_um_before:.2f} -> {screw.acting_um_after:.2f} um)" in figures
     assert screw.why.startswith(figures)
 
 

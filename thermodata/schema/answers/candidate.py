@@ -88,7 +88,10 @@ class Candidate(Result):
     p_value: share of responses in which nothing is missing on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
-    fit_before: the same as FIT [%]
+    acting_um_before: error in the tests in which it acts, each alike, its size from the other tests and the effects of
+        the model fitted to all: what a rule goes by; null in an answer of an older version
+    acting_um_after: with it
+    fit_before: FIT [%] on left-out tests without it
     fit_after: with it
     locked_rmse_um_before: error on the locked tests without it, of a refit of the model to all open tests; for a
         claimed one only
@@ -133,6 +136,8 @@ class Candidate(Result):
     p_value: float | None
     rmse_um_before: float | None
     rmse_um_after: float | None
+    acting_um_before: float | None = None
+    acting_um_after: float | None = None
     fit_before: float | None
     fit_after: float | None
     locked_rmse_um_before: float | None = None

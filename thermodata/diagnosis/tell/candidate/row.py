@@ -48,6 +48,8 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         p_value=None if one.as_modelled else p_value(one.evidence, measure.chance),
         rmse_um_before=rmse(errors.sse_before, errors),
         rmse_um_after=rmse(errors.sse_after, errors),
+        acting_um_before=one.error_before if one.acts.any() else None,
+        acting_um_after=one.error_after if one.acts.any() else None,
         fit_before=_fit(errors.sse_before, errors, measure.spread),
         fit_after=_fit(errors.sse_after, errors, measure.spread),
         locked_rmse_um_before=held.before if held else None,

@@ -1,0 +1,55 @@
+"""What is offered as a refinement is told with the errors that it is offered for."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.report.verdict.refined import told_with_errors
+
+from ..answers import candidate, diagnosis
+
+OVER_ALL = "do not tell, for there the effects of the model are foretold by the others, too"
+
+
+@pytest.mark.parametrize(
+    ("left", "acting", "locked", "said"),
+    [
+        (
+            *((1.76, 1.75), (1.33, 1.02), None),
+            f": where it acts the error falls (1.33 -> 1.02 um), its size foretold by the other tests; all "
+            f"left-out tests (1.76 -> 1.75 um) {OVER_ALL}",
+        ),
+        (
+            *((1.41, 2.46), (1.34, 1.02), (1.52, 1.17)),
+            f": where it acts the error falls (1.34 -> 1.02 um), its size foretold by the other tests, and so it does "
+            f"on locked tests (1.52 -> 1.17 um about each one's mean); all left-out tests (1.41 -> 2.46 um) {OVER_ALL}",
+        ),
+        ((1.00, 0.951), (1.34, 1.02), None, f"; all left-out tests (1.00 -> 0.951 um) {OVER_ALL}"),
+        ((1.00, 0.949), (1.34, 1.02), None, ", error on left-out tests 1.00 -> 0.949 um"),
+        ((1.76, 1.75), (1.00, 0.96), None, ", error on left-out tests 1.76 -> 1.75 um"),
+        ((1.76, 1.75), (None, None), None, ", error on left-out tests 1.76 -> 1.75 um"),
+    ],
+)
+def test_a_refinement_is_told_by_the_error_where_it_acts_where_that_over_all_tests_does_not_tell(
+    left: tuple[float, float],
+    acting: tuple[float | None, float | None],
+    locked: tuple[float, float] | None,
+    said: str,
+) -> None:
+    """1.76 -> 1.75 um argued against what let the locked tests fall from 2.69 to 1.95 um."""
+    given = {"acting_um_before": acting[0], "acting_um_after": acting[1]}
+    if locked is not None:
+        given |= {"locked_shape_um_before": locked[0], "locked_shape_um_after": locked[1]}
+    mode = candidate("mode:T", refinement=True, rmse_um_before=left[0], rmse_um_after=left[1], **given)
+    text = told_with_errors(diagnosis(mode, verdict="refine", rmse_um=left[0], named_rmse_um=left[1]), ": add {them}")
+    assert text.startswith("what the model has can be refined by mode (T)")
+    assert text.endswith(f"{said}: add it")
+
+
+def test_of_several_each_is_told_by_where_it_acts() -> None:
+    both = [
+        candidate(name, refinement=True, acting_um_before=2.0, acting_um_after=after)
+        for name, after in (("mode:T", 1.0), ("lead:T", 0.5))
+    ]
+    text = told_with_errors(diagnosis(*both, verdict="refine", rmse_um=1.76, named_rmse_um=1.75))
+    assert "where they act the error falls (mode 2.00 -> 1.00 um, lead 2.00 -> 0.500 um), their size" in text
