@@ -388,9 +388,8 @@ def test_what_is_as_probable_as_a_claim_and_not_excluded_says_what_stops_it_and_
     text = verdict_sentence(found("none", [likely]))
     assert text.startswith("the open tests show no missing effect that may be named: ")
     assert text.endswith(
-        "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n), "
-        "but it explains 1.8 % of the response "
-        "(limit 10 %)"
+        "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n): "
+        "enough for a claim, which asks 50 %, but it explains 1.8 % of the response (limit 10 %)"
     )
     unlikely = likely.model_copy(update={"probability": 0.4, "rungs": [rungs[0], rung("probability", holds=False)]})
     assert verdict_sentence(found("none", [unlikely])).endswith(", not told from screw (T_n)")

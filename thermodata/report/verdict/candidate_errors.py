@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words.numbers import number
-from thermodata.schema.words.sentences import in_percent, listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
@@ -140,21 +140,6 @@ def from_fitted(fitted: float | None, refitted: float, after: float) -> str:
 def users_own(fitted: float | None, refitted: float) -> float:
     """The error of the model as it is fitted, or of its refit where that says the same."""
     return refitted if fitted is None or math.isclose(fitted, refitted, rel_tol=SAME) else fitted
-
-
-def not_borne_out(one: Candidate) -> str:
-    """What the locked tests say against a likely cause that they were opened for; '' where they don't. One that keeps
-    every rule, and is as probable as a claim asks, is stopped by nothing else."""
-    before, after = one.locked_shape_um_before, one.locked_shape_um_after
-    falls = before is None or after is None or after < before
-    enough = bool(one.rungs) and all(r.holds for r in one.rungs)
-    if not one.locked_tests_asked or (falls and not enough):
-        return ""
-    figures = "" if before is None else f" ({number(before)} -> {number(after)} um about each one's mean)"
-    limit = next((r.limit for r in one.rungs if r.name == "probability"), None)
-    if not enough or limit is None:
-        return f", though the locked tests do not bear it out{figures}"
-    return f": enough for a claim, which asks {in_percent(limit)}, but the locked tests do not bear it out{figures}"
 
 
 def _shape_says_more(left: float, before: float | None, after: float | None) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors, not_borne_out
+from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.verdict.could_hide import could_be, was_not_asked
 from thermodata.report.verdict.left_over import (
     as_of_nothing,
@@ -17,6 +17,7 @@ from thermodata.report.verdict.left_over import (
     stays,
 )
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
+from thermodata.report.verdict.stopped import is_likely, stopped
 from thermodata.report.verdict.twins import by_name, not_told_from
 from thermodata.report.verdict.unasked import unasked
 from thermodata.report.words.numbers import duration, number, percent
@@ -154,7 +155,7 @@ def _verdict(found: Diagnosis) -> str:
             )
         )
     if found.verdict == "none" or any(c.as_modelled for c in refined):
-        named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
+        named = " that may be named" if is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
         mend = offered(found)
         beside = "where its effects may act otherwise, " if mend else ""
         none = f"{beside}the open tests show no missing effect{named}{as_dated}: {left_over(found)}{most_left(found)}"
@@ -194,7 +195,7 @@ def _not_excluded_one(found: Diagnosis) -> Candidate | None:
     if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
         return None
     of_refined = any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found))
-    return None if of_refined and not _is_likely(first) else first
+    return None if of_refined and not is_likely(first) else first
 
 
 def _not_excluded(found: Diagnosis) -> str:
@@ -202,14 +203,7 @@ def _not_excluded(found: Diagnosis) -> str:
     first = _not_excluded_one(found)
     if first is None:
         return ""
-    said = _with_probability(first)
-    stops = next((r.fails for r in first.rungs if not r.holds and r.fails), None)
-    return f"not excluded: {said}{f', but {stops}' if stops and _is_likely(first) else ''}"
-
-
-def _is_likely(one: Candidate | None) -> bool:
-    """Whether it is as probable as a claim asks."""
-    return one is not None and any(r.name == "probability" and r.holds for r in one.rungs)
+    return f"not excluded: {_with_probability(first)}{stopped(first) if is_likely(first) else ''}"
 
 
 def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
@@ -262,10 +256,8 @@ def _unclaimed(found: Diagnosis) -> str:
     if first is None:
         return f"{missing}nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
-    return (
-        f"{missing}the evidence{asked} suffices to name no cause; the likeliest that was logged "
-        f"is {_or_elsewhere(first)}, probability {probability(share)}{not_borne_out(first)}"
-    )
+    likeliest = f"the likeliest that was logged is {_or_elsewhere(first)}, probability {probability(share)}"
+    return f"{missing}the evidence{asked} suffices to name no cause; {likeliest}{stopped(first)}"
 
 
 def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
