@@ -389,7 +389,8 @@ def test_what_is_as_probable_as_a_claim_and_not_excluded_says_what_stops_it_and_
     assert text.startswith("the open tests show no missing effect that may be named: ")
     assert text.endswith(
         "; not excluded: motor (T), probability 71 % (that it is one of these), not told from screw (T_n): "
-        "enough for a claim, which asks 50 %, but it explains 1.8 % of the response (limit 10 %)"
+        "enough for a claim, which asks 50 %, but it explains 1.8 % of the response (limit 10 %); "
+        "thermodata confirm b1 motor:T asks the locked tests of it, where there are some"
     )
     unlikely = likely.model_copy(update={"probability": 0.4, "rungs": [rungs[0], rung("probability", holds=False)]})
     assert verdict_sentence(found("none", [unlikely])).endswith(", not told from screw (T_n)")

@@ -17,7 +17,7 @@ from thermodata.report.verdict.left_over import (
     stays,
 )
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
-from thermodata.report.verdict.stopped import is_likely, stopped
+from thermodata.report.verdict.stopped import asks_locked, better_with, is_likely, stopped
 from thermodata.report.verdict.twins import by_name, not_told_from
 from thermodata.report.verdict.unasked import unasked
 from thermodata.report.words.numbers import duration, number, percent
@@ -203,7 +203,9 @@ def _not_excluded(found: Diagnosis) -> str:
     first = _not_excluded_one(found)
     if first is None:
         return ""
-    return f"not excluded: {_with_probability(first)}{stopped(first) if is_likely(first) else ''}"
+    likely = is_likely(first)
+    said = f"not excluded: {_with_probability(first)}{stopped(first) if likely else ''}"
+    return "; ".join(filter(None, [said, asks_locked(first, found) if likely else ""]))
 
 
 def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
@@ -257,7 +259,8 @@ def _unclaimed(found: Diagnosis) -> str:
         return f"{missing}nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     likeliest = f"the likeliest that was logged is {_or_elsewhere(first)}, probability {probability(share)}"
-    return f"{missing}the evidence{asked} suffices to name no cause; {likeliest}{stopped(first)}"
+    none = f"{missing}the evidence{asked} suffices to name no cause; {likeliest}{stopped(first)}"
+    return "; ".join(filter(None, [none, asks_locked(first, found), better_with(found, first)]))
 
 
 def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
