@@ -26,6 +26,8 @@ STANDS_OUT = 2.0
 """An error in one window of so many times that on left-out tests is told beside it: a mean over all tests hides it."""
 LONGER = 1.01
 """Times an averaging time: what is no longer is the same one."""
+A_FIFTH = 0.2
+"""What leaves this share of the response may hide heat that nobody logs, whatever else leaves as much."""
 AS_SCORED = " (of calibration about levels fitted to them, others from their first samples on)"
 
 
@@ -44,6 +46,10 @@ def left_over(found: Diagnosis) -> str:
             f"{left}: as little as noise of shorter means, but more than white noise leaves in theirs "
             f"({number(found.noise_um)} um{_between(found)}){as_fitted}"
         )
+    unseen = _unseen_heat(found.rmse_um, found.response_um)
+    if unseen:
+        share = percent(found.rmse_um / (found.response_um or 1.0))
+        return f"{left}, {share} of the response, more than {noise}, and {unseen}{as_fitted}"
     return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
 
 
@@ -99,7 +105,7 @@ def as_of_nothing(found: Diagnosis) -> str:
 def stays(found: Diagnosis) -> str:
     """'3.77 um stay then, 30 % of the response, ...': what refinements leave, where that is more than is left alone;
     else ''."""
-    from thermodata.diagnosis.claims.measure import FLOOR_SHARE, GOOD_SHARE
+    from thermodata.diagnosis.claims.measure import FLOOR_SHARE
 
     left, response = found.named_rmse_um, found.response_um
     if left is None or not response or left > (found.rmse_um or 0.0):
@@ -110,8 +116,19 @@ def stays(found: Diagnosis) -> str:
     if found.weak_spots:
         worst = found.weak_spots[0]
         said += f" (the model fails most in {worst.test}, from {duration(worst.from_s)} to {duration(worst.to_s)})"
-    more = "more than is mostly left of a machine that lacks nothing: heat of what nobody logs may be in it"
-    return f"{said}, {more}" if left > GOOD_SHARE * response else said
+    return ", ".join(filter(None, [said, _unseen_heat(left, response)]))
+
+
+def _unseen_heat(left: float, response: float | None) -> str:
+    """'as much as is left of machines that lack nothing, and heat of what nobody logs may be in it' of a fifth of the
+    response and more; '' of less."""
+    from thermodata.diagnosis.claims.measure import GOOD_SHARE
+
+    if not response or left < A_FIFTH * response:
+        return ""
+    if left > GOOD_SHARE * response:
+        return "more than is mostly left of a machine that lacks nothing: heat of what nobody logs may be in it"
+    return "as much as models leave of a machine that lacks nothing, and heat of what nobody logs may be in it"
 
 
 def otherwise(found: Diagnosis) -> str:
