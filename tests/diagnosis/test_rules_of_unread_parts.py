@@ -10,7 +10,8 @@ from thermodata.diagnosis.candidates.of_library import candidates
 from thermodata.diagnosis.claims.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.question.present import Present
-from thermodata.diagnosis.tell.advising.next_test import to_find, to_log
+from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
+from thermodata.diagnosis.tell.advising.next_test import to_find
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.verdict.verdict import causes, verdict_sentence
@@ -263,6 +264,37 @@ def test_the_sensor_that_tells_them_apart_is_advised() -> None:
     assert advice in to_find(9, (), channels, one)
     assert advice not in to_find(9, (), {"T_guide": GUIDE}, one)
     assert advice not in to_find(9, (), channels, on_axis(600.0))
+
+
+SENSOR = (
+    "put a sensor on what holds the probes or the part and declare it at: fixture, or declare so the logged "
+    "temperature that sits there"
+)
+FOR_HOLDER = "to tell plain:T_a from a warming fixture of the probes or the part (no sensor there)"
+
+
+def test_of_a_fixture_the_advice_says_where_and_how_it_is_declared() -> None:
+    assert to_log(on_axis(600.0, "fixture"), {}) == f"{FOR_HOLDER}: {SENSOR}"
+    both = to_log(on_axis(600.0, "axis.z.guide", "fixture"), {})
+    assert both is not None
+    assert both.endswith(f": log a temperature there, and {SENSOR}")
+
+
+@pytest.mark.parametrize(
+    ("said", "places", "logged", "told"),
+    [
+        ("add tests", ("fixture",), (), f"add tests; and {FOR_HOLDER}, {SENSOR}"),
+        (None, ("axis.z.guide", "fixture"), (), f"{FOR_HOLDER}, {SENSOR}"),
+        (f"{FOR_HOLDER}: {SENSOR}", ("fixture",), (), f"{FOR_HOLDER}: {SENSOR}"),  # once
+        ("add tests", ("axis.z.guide",), (), "add tests"),
+        ("add tests", ("fixture",), (HOLDER,), "add tests"),
+    ],
+)
+def test_where_the_likeliest_may_be_a_fixture_every_advice_says_what_tells_it(
+    said: str | None, places: tuple[str, ...], logged: tuple[ChannelInfo, ...], told: str
+) -> None:
+    assert with_fixture(said, on_axis(600.0, *places), {c.name: c for c in logged}) == told
+    assert with_fixture(said, None, {}) == said
 
 
 def test_a_claim_names_it() -> None:

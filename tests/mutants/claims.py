@@ -48,6 +48,7 @@ BESIDE = {
     "logging_faults.py": ("logging_faults",),
     "loose.py": ("loose_sensors",),
     "measure.py": ("a_claim", "the_verdict"),
+    "bare.py": ("unread_parts",),
     "next_test.py": ("what_is_shown", "unread_parts"),
     "opened.py": ("the_locked_tests",),
     "other_axes.py": ("other_axes",),
@@ -141,7 +142,7 @@ MUTANTS = [
     diagnosis("unread.py", "if not own <= {", "if False and {", "a scale is taken for a part that rubs"),
     diagnosis("unread.py", "if axis !=", "if False and axis !=", "a rotary axis is given a nut"),
     diagnosis("unread.py", "and quantity == TEMPERATURE}", "}", "a feed at the motor is no longer the screw's"),
-    diagnosis("next_test.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
+    diagnosis("bare.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
     diagnosis("row.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
     diagnosis("of_library.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
     diagnosis(

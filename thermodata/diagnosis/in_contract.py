@@ -79,7 +79,7 @@ def in_contract(
         unknown=_unknown(shown, head, found, unread) if judgement.verdict == "unknown" else None,
         next_test=after_clocks(
             clocks_in_doubt(investigation.artefacts, right),
-            advice(outcome, shown[0][0] if shown else None, data, terms),
+            advice(outcome, shown[0][0] if shown else None, head, data, terms),
         ),
         response_um=investigation.measure.spread,
         limits=[] if judgement.claims else [_limit(one, terms, investigation) for one in investigation.limits],

@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import rules
 from thermodata.diagnosis.tell.advising import next_test
+from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
 from thermodata.diagnosis.tell.advising.worked import worked
 from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -17,8 +18,15 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.view.grid.dataset import Dataset
 
 
-def advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequence[str]) -> str | None:
-    """first: the head of the list. terms: ids of the model's effects."""
+def advice(
+    outcome: Outcome, first: Scored | None, head: Scored | None, data: Dataset, terms: Sequence[str]
+) -> str | None:
+    """first: of the list. head: the first that refines nothing. terms: ids of the model's effects."""
+    said = _advice(outcome, first, data, terms)
+    return with_fixture(said, head, data.channels) if outcome.judgement.verdict == "unknown" else said
+
+
+def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequence[str]) -> str | None:
     investigation, judgement, confirmation = outcome.investigation, outcome.judgement, outcome.confirmation
     claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
     if claims:
@@ -27,7 +35,7 @@ def advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequenc
         if apart is not None:
             return apart
         for other in judgement.claims:
-            if (log := next_test.to_log(other.scored, data.channels)) is not None:
+            if (log := to_log(other.scored, data.channels)) is not None:
                 return log
         for each in judgement.claims:
             twins = [s.candidate for s in equivalents(each.scored, each.beside)]

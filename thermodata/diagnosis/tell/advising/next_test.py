@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.candidates.unread import reads
-from thermodata.diagnosis.claims.probability import elsewhere
 from thermodata.diagnosis.question.problem import MIN_ROWS
+from thermodata.diagnosis.tell.advising.bare import to_log
 from thermodata.diagnosis.tell.advising.worked import Worked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.diagnosis import WeakSpot
-from thermodata.schema.words.places import heat_at, is_around
+from thermodata.schema.words.places import is_around
 from thermodata.schema.words.sentences import counted, listed
 from thermodata.view.grid.dataset import ChannelInfo
 
@@ -126,15 +125,6 @@ def to_tell_parts(
     of_motor = [at.rpartition(".")[2] in ("motor", "drive") for at in parts]
     how = _BY_LOAD if any(of_motor) and not all(of_motor) else _BY_PART
     return f"{chosen.id} may be heat of {listed(named, 'or')}; to tell them: {how}"
-
-
-def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
-    """The sensor that tells its heat from that of another part; None where each of them has one."""
-    sound = {name: channel for name, channel in channels.items() if channel.faulty is None}
-    bare = [place for place in elsewhere(one) if not reads(sound, place)]
-    if not bare:
-        return None
-    return f"to tell {one.candidate.id} from {heat_at(bare, ' and ')}: log a temperature there"
 
 
 def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
