@@ -118,3 +118,19 @@ def test_the_layouts_of_historians(tmp_path: Path, head: str, row: str) -> None:
     assert data.values["a/T2", "a/T2"].tolist() == [k + 0.5 for k in range(1, 29)]
     assert data.t_ns["a/T2"][:2].tolist() == [first * 1_000_000, (first + 86_400_000) * 1_000_000]
     assert not data.losses
+
+
+@pytest.mark.parametrize(
+    ("name", "bad", "told"),
+    [
+        ("Quality", ["16408", "24", "512"], True),  # 0x4018: a vendor's byte above OPC's own
+        ("dataintegrity", ["300", "500", "512", "88", "200"], True),  # Ignition: good is 192 alone
+        ("Quality", ["16576", "192", "64"], False),
+    ],
+)
+def test_a_quality_of_16_bit_is_none_of_opc_ua(tmp_path: Path, name: str, bad: list[str], told: bool) -> None:
+    rows = [f"2026-03-02 08:00:{k:02d},T1,{20 + k / 10},{192 if k % 3 else bad[k % len(bad)]}\n" for k in range(40)]
+    path = written(tmp_path, f"Time,Tag,Value,{name}\n" + "".join(rows), "h.csv")
+    data = load(Reader(), path, Source(timezone="UTC"))
+    (flags,) = data.flags.values()
+    assert [k for k, flag in enumerate(flags) if flag] == ([*range(0, 40, 3)] if told else [])

@@ -84,6 +84,11 @@ class Layout:
         return {*self.times, *self.tags, self.value, *maybe}.union(*(each.wanted for each in self.more))
 
     @property
+    def status_name(self) -> str:
+        """What the column of the status is called, bare."""
+        return "" if self.status is None else bare(fields(self.header, self.delimiter)[self.status])
+
+    @property
     def grid(self) -> Grid:
         """All wanted cells as text: what a value is, its tag decides."""
         kinds = tuple("str" if k in self.wanted else None for k in range(self.width))
