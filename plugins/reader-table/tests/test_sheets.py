@@ -263,3 +263,29 @@ def test_times_of_day_of_a_sheet_go_over_midnight(tmp_path: Path) -> None:
     rows: list[list[object]] = [["time", "T1"], *([((86_100 + 10 * i) % 86_400) / 86_400, 20.5] for i in range(60))]
     data = read(tmp_path, {"a": sheet(rows, (3, 0))})
     np.testing.assert_allclose(data.t_ns["table"] / 1e9, np.arange(60) * 10.0, atol=1e-3)
+
+
+def _pivot(n: int) -> list[list[object]]:
+    return [["Test", "Time", "Z"], *([None, hour, -6.25 - hour] for hour in range(n))]
+
+
+def _with_serials(n: int, unit: str = "Date") -> list[list[object]]:
+    return [[unit, "T1"], *([46_145.25 + i / 8640, 20.5 + i / 10] for i in range(n))]
+
+
+def test_a_summary_beside_a_sheet_of_dates_asks_nothing_of_the_time(tmp_path: Path) -> None:
+    data = read(tmp_path, {"Pivot": sheet(_pivot(12)), "run": sheet(_with_serials(40))})
+    assert data.recording.clock == "absolute"
+    assert list(data.values) == [("table", "T1")]
+    assert any(n.startswith("sheet 'Pivot' is not read as a table: the time 'Time'") for n in data.recording.notes)
+
+
+def test_a_sheet_of_many_rows_whose_time_has_no_unit_is_asked(tmp_path: Path) -> None:
+    with pytest.raises(QuestionError, match="the time 'Time' has no unit"):
+        read(tmp_path, {"run": sheet(_pivot(40)), "days": sheet(_with_serials(60))})
+
+
+def test_a_declared_unit_that_takes_dates_for_a_span_is_told(tmp_path: Path) -> None:
+    source = Source(timezone="UTC", table={"time": {"unit": "h"}})
+    data = read(tmp_path, {"run": sheet(_with_serials(40))}, source)
+    assert any("is read in h, as declared; by itself it counts excel, from 2026-" in n for n in data.recording.notes)

@@ -72,6 +72,11 @@ class Layout:
         """Columns of dates and times that are read as text."""
         return tuple(i for g in self.groups if g.dated for i in g.time)
 
+    @property
+    def of_dates(self) -> bool:
+        """Whether the times of some group are dates, or count from one."""
+        return any(g.epoch is not None or (g.dated and not g.counted) for g in self.groups)
+
     def stream_of(self, column: int) -> str:
         return next(g.stream for g in self.groups if column in g.columns)
 

@@ -101,8 +101,10 @@ def _layouts(path: Path, source: Source, book: Book) -> tuple[dict[str, Layout],
             tables[sheet] = find_layout(cells.rows[:500], source.table, where)
         except ThermodataError as error:
             refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
-    # a list of numbers may be no recording; a time without its unit is one
-    asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
+    # a list of numbers may be no recording; a time without its unit is one, but for a summary beside dates
+    dated = max((len(book.sheets[s].rows) for s, t in tables.items() if t.of_dates), default=0)
+    open_ = {s: e for s, e in refused.items() if isinstance(e, QuestionError) and 2 * len(book.sheets[s].rows) > dated}
+    asked = [e for e in open_.values() if "period" not in e.declare.get("time", {})]
     if asked or not tables:
         raise next(iter(asked or refused.values()))
     return tables, [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
