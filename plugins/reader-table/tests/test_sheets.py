@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 from pathlib import Path
 
 import numpy as np
@@ -289,3 +290,22 @@ def test_a_declared_unit_that_takes_dates_for_a_span_is_told(tmp_path: Path) -> 
     source = Source(timezone="UTC", table={"time": {"unit": "h"}})
     data = read(tmp_path, {"run": sheet(_with_serials(40))}, source)
     assert any("is read in h, as declared; by itself it counts excel, from 2026-" in n for n in data.recording.notes)
+
+
+CLOCKS = [(form, f"%Y-%m-%d {form}") for form in ("%H-%M-%S", "%H.%M.%S")] + [("%Hh%Mm%S", "unknown")]
+
+
+@pytest.mark.parametrize(("clock", "form"), CLOCKS)
+def test_dates_beside_times_of_day_that_are_not_read_are_asked(tmp_path: Path, clock: str, form: str) -> None:
+    first = dt.datetime(2026, 7, 6, 8)
+    rows: list[list[object]] = [[46_209, f"{first + k * dt.timedelta(seconds=10):{clock}}", k] for k in range(40)]
+    book = {"a": sheet([["Data", "Ora", "T1"], *rows], (4, 0, 0)), "sum": sheet([["Test", "max", "n"], ["a", 1, 2]])}
+    with pytest.raises(QuestionError) as caught:
+        read(tmp_path, book)
+    assert caught.value.declare == {"time": {"column": [1, 2], "format": form}}
+    time = {"column": [1, 2], "format": f"%Y-%m-%d {clock}"}
+    data = read(tmp_path, book, Source(timezone="UTC", table={"time": time}))
+    (t_ns,) = data.t_ns.values()
+    assert (t_ns - t_ns[0]).tolist() == [k * 10**10 for k in range(40)]
+    assert data.recording.start_ns == int(np.datetime64("2026-07-06T08:00", "ns").astype(np.int64))
+    assert any(note.startswith("sheet 'sum' is not read as a table") for note in data.recording.notes)
