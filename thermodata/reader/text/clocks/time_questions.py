@@ -16,7 +16,7 @@ from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.clock_numbers import days_beside, fraction_question, year_and_day
+from thermodata.reader.text.times.clock_numbers import DAYS_OF_YEAR, days_beside, fraction_question, year_and_day
 from thermodata.reader.text.times.date_parts import declared_parts
 from thermodata.reader.text.times.gps_weeks import find_weeks
 from thermodata.reader.text.times.odd_stamps import fitting_formats, guess_format
@@ -118,6 +118,7 @@ def time_question(seen: FirstRows) -> QuestionError | None:
     rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in seen.rows)
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     low = seen.names[place].strip().lower().removesuffix("()")
+    low = "d" if low in DAYS_OF_YEAR else low
     unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
     column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
