@@ -35,6 +35,11 @@ def _seen(low: float, high: float) -> Values:
         ("COOLANT (IN)", 20, 30, "temperature", "degC"),  # an inlet
         ("pump_hp", 1, 9, None, None),  # high pressure
         ("Log/n [1/s]", 0, 66, "rotational_speed", "1/s"),
+        ("Spindle [Hz]", 0, 66, "rotational_speed", "Hz"),  # asked: or another frequency?
+        ("Supply [Hz]", 49, 51, None, "Hz"),
+        ("spindle frequency [Hz]", 0, 66, None, "Hz"),
+        ("IDS axis 1 (Z) [pm]", 0, 3e7, "displacement", "pm"),
+        ("block number [um]", 0, 30, "displacement", "um"),
         ("/d.pos_X [m]", 0.1, 0.4, "position", "m"),
         ("ns=2;s=torque_S [kNm]", 0, 0.04, "torque", "kNm"),
         ("feed_X [mm/s]", 0, 100, "feed", "mm/s"),
