@@ -88,3 +88,10 @@ def test_an_in_behind_the_letter_of_an_axis_alone_is_asked() -> None:
     values = _seen(21.0, 24.0)
     assert any("inlet" in q for q in guess("Z(IN)", None, "float64", values).questions)
     assert not any("inlet" in q for q in guess("X_ERR(IN)", None, "float64", values).questions)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "span"), [(19.84, 34.5, "19.84 to 34.5"), (250.003, 250.021, "250 to 250.02"), (7, 7, "7")]
+)
+def test_a_span_tells_its_ends_apart(low: float, high: float, span: str) -> None:
+    assert _seen(low, high).span() == span

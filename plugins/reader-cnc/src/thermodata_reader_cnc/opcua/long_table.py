@@ -95,7 +95,7 @@ def _parts(layout: Layout, columns: dict[int, list[str | None]], n: int) -> Iter
     """(tag, value, status, unit) of each of n rows."""
     statuses = [None] * n if layout.status is None else columns[layout.status]
     written = [""] * n if layout.unit is None else columns[layout.unit]
-    return zip(layout.named(columns, n), columns[layout.value], statuses, written, strict=True)
+    return zip(layout.named(columns, n), layout.valued(columns), statuses, written, strict=True)
 
 
 def _not_rows(
