@@ -79,7 +79,7 @@ def _speed(low: float = 0.0, high: float = 4000.0) -> np.ndarray:
 
 
 @pytest.mark.parametrize("quantity", ["rotational_speed", "feed", "position", "angle"])
-@pytest.mark.parametrize("code", [-9999.0, -99999.0, -6999.0, 99999.0, -999.9])
+@pytest.mark.parametrize("code", [-9999.0, -99999.0, -6999.0, 99999.0, -999.9, -3276.8])
 def test_a_code_where_no_drive_goes_is_no_reading(code: float, quantity: str) -> None:
     x = _speed()
     x[1000:1031] = code

@@ -50,7 +50,6 @@ _CODES = {
     "load": np.append(_SENTINELS, 255.0),
     **dict.fromkeys(("rotational_speed", "feed", "position", "angle"), _FULL_SCALE),
 }
-_MAY_BE_COMMANDED = np.setdiff1d(_SENTINELS, _FULL_SCALE)
 _SPEEDS = [6999.0, 7999.0, 9999.0]  # that spindles have, and rapid feeds
 _FAR, _SELDOM = 10.0, 0.05  # spans of the rest, beyond which no drive goes; the share of samples that are codes
 _HUGE = 1e30
@@ -114,9 +113,9 @@ def _never_commanded(x: Float1D, ends: Float1D) -> Bool1D:
     """Where a code that may be commanded, as a row of nines, is none of it, shape (n,): seldom, without a ramp to it,
     and below zero where the rest never is, or many spans beyond the rest. ends: the least and the largest of x."""
     none: Bool1D = np.zeros(len(x), dtype=bool)
-    if not np.isin(ends, _MAY_BE_COMMANDED).any():
+    if not np.isin(ends, _SENTINELS).any():
         return none
-    coded: Bool1D = np.isin(x, _MAY_BE_COMMANDED)
+    coded: Bool1D = np.isin(x, _SENTINELS)
     rest = x[~coded & np.isfinite(x)]
     if len(rest) < 10 or np.count_nonzero(coded) > _SELDOM * len(x):
         return none
