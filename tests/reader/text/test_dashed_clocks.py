@@ -86,3 +86,15 @@ def test_a_time_of_points_whose_day_may_be_a_month_names_both_formats(tmp_path: 
 def test_numbers_with_a_unit_of_time_are_no_times_of_points(tmp_path: Path) -> None:
     path = written(tmp_path, "Date;Time [h]", ["%Y-%m-%d", "%H.%M"], timedelta(minutes=1))
     assert delimited.open_table(path, Source(timezone="UTC")).layout.time == (1,)
+
+
+@pytest.mark.parametrize("clock", ["%H.%M.%S", "%H-%M-%S"])
+def test_a_time_that_looks_like_dates_is_asked_without_a_date_beside_it(tmp_path: Path, clock: str) -> None:
+    path = written(tmp_path, "Time", [clock], timedelta(seconds=10))
+    with pytest.raises(QuestionError) as caught:
+        delimited.open_table(path, Source())
+    assert caught.value.declare == {"time": {"column": 1, "format": clock}}
+    source = Source(table=caught.value.declare)
+    table = delimited.open_table(path, source)
+    times = [int(t) for b in delimited.blocks(path, table, source) if isinstance(b, Block) for t in b.t_ns]
+    assert [(t - times[0]) // 10**9 for t in times] == [10 * k for k in range(200)]

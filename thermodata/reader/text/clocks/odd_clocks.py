@@ -35,6 +35,10 @@ def clock_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError |
     if len(columns) != 1:
         return None
     (place,) = columns
+    if looks_like_dates(cells := seen.column(place)):
+        first = next(c.strip() for c in cells if isinstance(c, str) and c.strip())
+        mark = first.lstrip("0123456789")[0]
+        return format_question((place,), seen, mark.join(("%H", "%M", "%S")), first, ", or a format of dates")
     dated = [(r, day) for r in seen.rows if (day := _day_of(r[place]))]
     days = [day for _, day in dated]
     if not days or any(map(says_the_hour, days)) or max(Counter(days).values()) < _MANY:
