@@ -75,3 +75,22 @@ def test_a_value_under_a_head_is_called_as_the_head_and_has_its_unit(tmp_path: P
         "MC7_BRG_FRONT_TEMP": ("temperature", "DEG F"),
         "MC7_SPINDLE_SPEED": ("rotational_speed", "RPM"),
     }
+
+
+def test_comments_above_a_table_name_its_channels_and_a_test_that_lacks_one_is_asked(tmp_path: Path, say: Say) -> None:
+    called = {"a": ("Lager vorn", "Lager hinten", "Bett"), "b": ("Lager vorn", "Bett")}
+    for day, (test, names) in enumerate(called.items(), 5):
+        head = [f"# Kanal {k}: {name}" for k, name in enumerate(names, 1)]
+        titles = ";".join(["Zeit", *(f"Kanal {k} [°C]" for k in range(1, len(names) + 1))])
+        rows = [
+            f"{day:02}.05.2026 06:{i // 6:02}:{i % 6 * 10:02};"
+            + ";".join(f"{21 + k + i / 90:.2f}" for k in range(len(names)))
+            for i in range(300)
+        ]
+        (tmp_path / f"{test}.csv").write_text("\n".join([*head, titles, *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    channels = (tmp_path / "campaign.yaml").read_text().splitlines()
+    (front,) = [line for line in channels if "Kanal 1" in line]
+    (second,) = [line for line in channels if "Kanal 2" in line]
+    assert "called 'Lager vorn' in the file" in front
+    assert "? the same in all tests? the files call it 'Lager hinten' (1), 'Bett' (1)" in second

@@ -63,3 +63,13 @@ def test_a_folder_in_utf_8_declares_none(tmp_path: Path, say: Say) -> None:
     folder = _folder(tmp_path / "a", _JAPANESE, "utf-8")
     say("init", folder)
     assert "encoding" not in (folder / "campaign.yaml").read_text(encoding="utf-8")
+
+
+def test_a_file_of_few_words_is_read_in_the_encoding_that_the_others_tell(tmp_path: Path, say: Say) -> None:
+    folder = _folder(tmp_path / "a", _JAPANESE, "cp932")
+    (folder / "gauge_Z.csv").write_bytes(("日時,桜(μm),吹雪(℃),春眠不覚暁処処聞啼鳥(℃)\n" + _ROWS).encode("cp932"))
+    say("init", folder)
+    draft = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    assert "gauge_Z.csv: reader" not in draft
+    assert "吹雪" in draft
+    assert draft.count("encoding: cp932") >= 1

@@ -82,3 +82,12 @@ def test_a_probe_in_mm_alone_shows_no_axis_that_stands_still(tmp_path: Path, say
     campaign = drafted(tmp_path, say)
     assert [t.kind for t in campaign.tests] == ["other"] * 2
     assert "nothing moves" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+def test_sums_of_a_pivot_are_no_conditions(tmp_path: Path) -> None:
+    tests = ["T1_4000", "T2_8000"]
+    rows = [row for t in tests for row in (f"{t};0;-6.2", ";1;-8.1", f"{t} Totale;;-7.2")]
+    (tmp_path / "pivot.csv").write_text("\n".join(["Prova;Ora;Z", *rows, "Totale complessivo;;-7.2", ""]))
+    assert find_table(tmp_path, ["pivot.csv"], tests) is None
+    (tmp_path / "pivot.csv").write_text("\n".join(["Prova;Ora;Z", "T1_4000;8;-6", "T2_8000;9;-7", "Totale;;-13", ""]))
+    assert find_table(tmp_path, ["pivot.csv"], tests) is not None

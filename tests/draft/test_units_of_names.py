@@ -35,6 +35,11 @@ def _seen(low: float, high: float) -> Values:
         ("COOLANT (IN)", 20, 30, "temperature", "degC"),  # an inlet
         ("pump_hp", 1, 9, None, None),  # high pressure
         ("Log/n [1/s]", 0, 66, "rotational_speed", "1/s"),
+        ("Spindle [Hz]", 0, 66, "rotational_speed", "Hz"),  # asked: or another frequency?
+        ("Supply [Hz]", 49, 51, None, "Hz"),
+        ("spindle frequency [Hz]", 0, 66, None, "Hz"),
+        ("IDS axis 1 (Z) [pm]", 0, 3e7, "displacement", "pm"),
+        ("block number [um]", 0, 30, "displacement", "um"),
         ("/d.pos_X [m]", 0.1, 0.4, "position", "m"),
         ("ns=2;s=torque_S [kNm]", 0, 0.04, "torque", "kNm"),
         ("feed_X [mm/s]", 0, 100, "feed", "mm/s"),
@@ -83,3 +88,10 @@ def test_an_in_behind_the_letter_of_an_axis_alone_is_asked() -> None:
     values = _seen(21.0, 24.0)
     assert any("inlet" in q for q in guess("Z(IN)", None, "float64", values).questions)
     assert not any("inlet" in q for q in guess("X_ERR(IN)", None, "float64", values).questions)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "span"), [(19.84, 34.5, "19.84 to 34.5"), (250.003, 250.021, "250 to 250.02"), (7, 7, "7")]
+)
+def test_a_span_tells_its_ends_apart(low: float, high: float, span: str) -> None:
+    assert _seen(low, high).span() == span

@@ -161,3 +161,11 @@ def test_a_part_that_ends_otherwise_than_a_period_before_the_first_row_is_no_rin
 def test_two_steps_back_are_no_ring() -> None:
     t = clock(900)
     assert ordered(np.concatenate([t[600:], t[300:600], t[:300]]))[0].keep == 300
+
+
+def test_resets_by_decades_end_where_no_time_is_left() -> None:
+    years = np.arange(400) // 3 % 50  # seconds of a clock that were taken for years
+    found, made = ordered(T0 + years * 365 * 86_400 * S + np.arange(400), allowed=True)
+    assert 150 <= found.keep < 400
+    assert (np.diff(made) > 0).all()
+    assert made[-1] < 2**62

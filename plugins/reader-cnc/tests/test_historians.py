@@ -118,3 +118,36 @@ def test_the_layouts_of_historians(tmp_path: Path, head: str, row: str) -> None:
     assert data.values["a/T2", "a/T2"].tolist() == [k + 0.5 for k in range(1, 29)]
     assert data.t_ns["a/T2"][:2].tolist() == [first * 1_000_000, (first + 86_400_000) * 1_000_000]
     assert not data.losses
+
+
+@pytest.mark.parametrize(
+    ("name", "bad", "told"),
+    [
+        ("Quality", ["16408", "24", "512"], True),  # 0x4018: a vendor's byte above OPC's own
+        ("dataintegrity", ["300", "500", "512", "88", "200"], True),  # Ignition: good is 192 alone
+        ("Quality", ["16576", "192", "64"], False),
+    ],
+)
+def test_a_quality_of_16_bit_is_none_of_opc_ua(tmp_path: Path, name: str, bad: list[str], told: bool) -> None:
+    rows = [f"2026-03-02 08:00:{k:02d},T1,{20 + k / 10},{192 if k % 3 else bad[k % len(bad)]}\n" for k in range(40)]
+    path = written(tmp_path, f"Time,Tag,Value,{name}\n" + "".join(rows), "h.csv")
+    data = load(Reader(), path, Source(timezone="UTC"))
+    (flags,) = data.flags.values()
+    assert [k for k, flag in enumerate(flags) if flag] == ([*range(0, 40, 3)] if told else [])
+
+
+@pytest.mark.parametrize("tag", ["tagid", "tagpath"])
+@pytest.mark.parametrize("none", ["", "NULL"])
+def test_a_value_stands_in_the_column_of_its_type(tmp_path: Path, tag: str, none: str) -> None:
+    """As Ignition keeps it: a number that is whole in one column, one with decimals in another."""
+    names = {"tagid": ("11", "31"), "tagpath": ("mill7/bed_c", "mill7/speed_rpm")}[tag]
+    times = [1792742400000 + 10_000 * k for k in range(40)]
+    rows = [f"{names[0]},{none},{21 + k / 8},{none},192,{t}\n" for k, t in enumerate(times)]
+    rows += [f"{names[1]},{4000 + k},{none},{none},192,{t + 1}\n" for k, t in enumerate(times)]
+    text = f"{tag},intvalue,floatvalue,stringvalue,dataintegrity,t_stamp\n" + "".join(
+        sorted(rows, key=lambda r: r.split(",")[-1])
+    )
+    data = load(Reader(), written(tmp_path, text, "h.csv"), Source())
+    values = {n: list(dict.fromkeys(v[np.isfinite(v)].tolist())) for (_, n), v in data.values.items()}
+    assert values == {names[0]: [21 + k / 8 for k in range(40)], names[1]: [4000.0 + k for k in range(40)]}
+    assert not data.losses

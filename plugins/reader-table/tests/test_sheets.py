@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 from pathlib import Path
 
 import numpy as np
@@ -263,3 +264,48 @@ def test_times_of_day_of_a_sheet_go_over_midnight(tmp_path: Path) -> None:
     rows: list[list[object]] = [["time", "T1"], *([((86_100 + 10 * i) % 86_400) / 86_400, 20.5] for i in range(60))]
     data = read(tmp_path, {"a": sheet(rows, (3, 0))})
     np.testing.assert_allclose(data.t_ns["table"] / 1e9, np.arange(60) * 10.0, atol=1e-3)
+
+
+def _pivot(n: int) -> list[list[object]]:
+    return [["Test", "Time", "Z"], *([None, hour, -6.25 - hour] for hour in range(n))]
+
+
+def _with_serials(n: int, unit: str = "Date") -> list[list[object]]:
+    return [[unit, "T1"], *([46_145.25 + i / 8640, 20.5 + i / 10] for i in range(n))]
+
+
+def test_a_summary_beside_a_sheet_of_dates_asks_nothing_of_the_time(tmp_path: Path) -> None:
+    data = read(tmp_path, {"Pivot": sheet(_pivot(12)), "run": sheet(_with_serials(40))})
+    assert data.recording.clock == "absolute"
+    assert list(data.values) == [("table", "T1")]
+    assert any(n.startswith("sheet 'Pivot' is not read as a table: the time 'Time'") for n in data.recording.notes)
+
+
+def test_a_sheet_of_many_rows_whose_time_has_no_unit_is_asked(tmp_path: Path) -> None:
+    with pytest.raises(QuestionError, match="the time 'Time' has no unit"):
+        read(tmp_path, {"run": sheet(_pivot(40)), "days": sheet(_with_serials(60))})
+
+
+def test_a_declared_unit_that_takes_dates_for_a_span_is_told(tmp_path: Path) -> None:
+    source = Source(timezone="UTC", table={"time": {"unit": "h"}})
+    data = read(tmp_path, {"run": sheet(_with_serials(40))}, source)
+    assert any("is read in h, as declared; by itself it counts excel, from 2026-" in n for n in data.recording.notes)
+
+
+CLOCKS = [(form, f"%Y-%m-%d {form}") for form in ("%H-%M-%S", "%H.%M.%S")] + [("%Hh%Mm%S", "unknown")]
+
+
+@pytest.mark.parametrize(("clock", "form"), CLOCKS)
+def test_dates_beside_times_of_day_that_are_not_read_are_asked(tmp_path: Path, clock: str, form: str) -> None:
+    first = dt.datetime(2026, 7, 6, 8)
+    rows: list[list[object]] = [[46_209, f"{first + k * dt.timedelta(seconds=10):{clock}}", k] for k in range(40)]
+    book = {"a": sheet([["Data", "Ora", "T1"], *rows], (4, 0, 0)), "sum": sheet([["Test", "max", "n"], ["a", 1, 2]])}
+    with pytest.raises(QuestionError) as caught:
+        read(tmp_path, book)
+    assert caught.value.declare == {"time": {"column": [1, 2], "format": form}}
+    time = {"column": [1, 2], "format": f"%Y-%m-%d {clock}"}
+    data = read(tmp_path, book, Source(timezone="UTC", table={"time": time}))
+    (t_ns,) = data.t_ns.values()
+    assert (t_ns - t_ns[0]).tolist() == [k * 10**10 for k in range(40)]
+    assert data.recording.start_ns == int(np.datetime64("2026-07-06T08:00", "ns").astype(np.int64))
+    assert any(note.startswith("sheet 'sum' is not read as a table") for note in data.recording.notes)

@@ -75,6 +75,55 @@ def test_a_year_its_day_and_a_clock_without_a_header_are_asked_as_such_and_no_ch
     assert data.t_ns["table"][0] == np.datetime64("2026-03-12T08:00", "ns").astype(np.int64)
 
 
+def of_two_kinds(folder: Path) -> Path:
+    """A logger's rows of two arrays: every fifth row of the one has one of the other behind it."""
+    rows = []
+    for k in range(200):
+        clock = f"2026,71,{800 + 2 * k // 60},{2 * k % 60}"
+        rows.append(f"110,{clock},{k},{2 * k}")
+        rows += [f"120,{clock},13.2,21.5,21.5,21.1,21.5"] if k % 5 == 0 else []
+    (folder / "a.dat").write_text("\n".join([*rows, ""]))
+    return folder / "a.dat"
+
+
+def test_a_year_its_day_a_clock_and_seconds_are_asked_as_such_in_rows_of_two_kinds(tmp_path: Path) -> None:
+    path = of_two_kinds(tmp_path)
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), path, Source(timezone="UTC"))
+    assert asked.value.declare == {"time": {"column": [2, 3, 4, 5], "format": "%Y %j %H%M %S"}}
+    data = load(Reader(), path, Source(timezone="UTC", table=asked.value.declare))
+    assert ((data.t_ns["table"] - data.t_ns["table"][0]) // 10**9).tolist() == list(range(0, 400, 2))
+
+
+def test_rows_of_another_kind_take_no_time_where_rows_are_counted(tmp_path: Path) -> None:
+    data = load(Reader(), of_two_kinds(tmp_path), Source(table={"time": {"period": 2.0}}))
+    assert (data.t_ns["table"] // 10**9).tolist() == list(range(0, 400, 2))
+    assert any("rows of 10 cells stand among those of 7" in note for note in data.recording.notes)
+
+
+def test_a_damaged_row_takes_its_time_where_rows_are_counted(tmp_path: Path) -> None:
+    rows = [f"{k};{20 + k / 9:.2f};21.5" if k != 30 else "30;21" for k in range(90)]
+    (tmp_path / "a.csv").write_text("\n".join(["n;T1;T2", *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(table={"time": {"period": 2.0}}))
+    assert (data.t_ns["table"] // 10**9).tolist() == [2 * k for k in range(90) if k != 30]
+
+
+def test_a_year_its_day_a_clock_and_seconds_are_known_by_their_names(tmp_path: Path) -> None:
+    rows = [f"2026,71,{800 + k // 6},{10 * k % 60},{20 + k / 9:.2f}" for k in range(90)]
+    (tmp_path / "a.csv").write_text("\n".join(["Year,DOY,HHMM,Sec,T_front", *rows, ""]))
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert asked.value.declare == {"time": {"column": [1, 2, 3, 4], "format": "%Y %j %H%M %S"}}
+
+
+def test_a_day_of_the_year_with_its_part_is_asked_as_days(tmp_path: Path) -> None:
+    rows = [f"{87.25 + k / 8640:.6f},{20 + k / 9:.2f}" for k in range(90)]
+    (tmp_path / "a.csv").write_text("\n".join(["DOY,T_front", *rows, ""]))
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert "then time: {column: 1, unit: d}" in asked.value.ask
+
+
 def test_minutes_from_a_start_beside_a_date_are_no_clock(tmp_path: Path) -> None:
     """They go on behind 59, where a clock has its next hour."""
     rows = [f"2026-07-14;{800 + k};{20 + k / 9:.2f}" for k in range(90)]

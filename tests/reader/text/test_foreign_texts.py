@@ -24,11 +24,35 @@ GERMAN = "".join(f"t={10 * i}; T1=21,{i}0; dZ=-{i},25\n" for i in range(9))
 SYSLOG = "".join(f"Dec 31 20:0{i}:00 labpi thermo[412]: bearing=22.0{i} bed=20.48\n" for i in range(9))
 LOGGING = "".join(f"2026-03-02 08:00:0{i},123 INFO T1: 21.9{i} T2: -3\n" for i in range(9))
 BROKER = "".join(f'lab/bed/temp {{"ts": 177243840{i}, "v": 21.9{i}, "unit": "degC"}}\n' for i in range(9))
+XML = '<?xml version="1.0"?>\n'
+EXCEL = (
+    XML + '<?mso-application progid="Excel.Sheet"?>\n<Workbook xmlns="urn:schemas-microsoft-com:office:spreadsheet">\n'
+)
+EXCEL += "".join(f'<Row><Cell><Data ss:Type="Number">2{i}.5</Data></Cell></Row>\n' for i in range(9))
+FLAT = XML + '<office:document office:mimetype="application/vnd.oasis.opendocument.spreadsheet"><office:body>\n'
+AGENT = "--a8f3c1\nContent-type: text/xml\nContent-length: 3314\n\n" + XML + "<MTConnectStreams></MTConnectStreams>\n"
+CAN = "".join(f"(17731296{i}0.000000) can0 1A3#00D300D70000000{i}\n" for i in range(9))
+CANDUMP = "".join(f"  can0  1A3   [8]  00 D3 00 D7 00 00 00 0{i}\n" for i in range(9))
+RRD = "                T_bed               T_air\n\n" + "".join(
+    f"177312960{i}: 2.110000000{i}e+01 -nan\n" for i in range(9)
+)
+MYSQL = "".join(f"{'*' * 27} {i}. row {'*' * 27}\n   ts: 2026-03-10 08:00:0{i}\nT_bed: 21.10\n" for i in range(1, 9))
+PSQL = "".join(
+    f"-[ RECORD {i} ]----------------\nts    | 2026-03-10 08:00:0{i}+00\nT_bed | 21.1\n" for i in range(1, 9)
+)
 
 
 @pytest.mark.parametrize(
     ("text", "what", "do"),
     [
+        (EXCEL, "workbook in one XML", "XLSX"),
+        (FLAT, "workbook in one XML", "XLSX"),
+        (AGENT, "agent of MTConnect", "grep"),
+        (CAN, "CAN bus", "DBC"),
+        (CANDUMP, "CAN bus", "DBC"),
+        (RRD, "rrdtool", "sed"),
+        (MYSQL, "rows of a database", "mysql --batch"),
+        (PSQL, "rows of a database", "psql --csv"),
         (LINES, "line protocol", "CSV"),
         (STRINGS, "line protocol", "CSV"),
         (PRINT, "DPRNT", "commas"),

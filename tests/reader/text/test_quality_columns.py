@@ -87,6 +87,9 @@ def test_qualities_in_words_or_hexadecimal_are_text() -> None:
         (np.array(["Good", None, "Bad", "uncertain", "", "OK"], object), False, [0, 0, 1, 0, 0, 0]),
         (np.array([True, False]), False, [0, 1]),
         (np.array([0, 1, 16, 133]), True, [0, 1, 0, 0]),  # Wonderware's good, bad, doubtful and initial
+        # a vendor's byte above OPC's own: good, uncertain, bad; Ignition's stale, a fault and bad
+        (np.array([16576, 0x4040, 16408, 500, 300, 512, 24]), False, [0, 0, 1, 1, 1, 1, 1]),
+        (np.array([0, 0x8000, 0x40000000]), True, [0, 1, 0]),
     ],
 )
 def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]) -> None:
@@ -109,6 +112,11 @@ def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]
         (["0", "16"], "Quality", None),  # doubtful in Wonderware, a sensor's failure in OPC
         (["0", "1", "133"], "Quality", True),
         (["0", "133", "192"], "QualityDetail", False),
+        (["0", "16576", "16408"], "Quality", False),  # of 16 bit, no status code of OPC UA
+        (["0x4018", "0", "192"], "Quality", False),
+        (["0", "0x8000"], "StatusCode", True),
+        (["0", "0x8000"], "Quality", None),
+        (["0", "512"], "dataintegrity", False),
         (["1"], "Quality", False),
         (["Good"], "Quality", False),
     ],

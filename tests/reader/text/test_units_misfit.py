@@ -57,3 +57,33 @@ def test_a_time_in_the_last_column_leaves_the_units_before_it(tmp_path: Path) ->
     rows = [";".join([*r.split(";")[1:], r.split(";")[0]]) for r in ROWS]
     (tmp_path / "a.csv").write_text("\n".join(["T1;T2;dZ;time", "degC;degF;mm", *rows]))
     assert open_table(tmp_path / "a.csv", Source()).layout.units[:3] == ("degC", "degF", "mm")
+
+
+def _of_a_recorder(folder: Path, channels: list[str], tags: list[str]) -> list[tuple[str | None, ...]]:
+    """[names, units] of an export with rows of what each channel is, as recorders write them."""
+    n = len(channels)
+    rows = [f"2026/06/01 09:00:{k:02d}\t" + "\t".join(f"{21 + k % 7 / 10 + j}" for j in range(n)) for k in range(60)]
+    head = [
+        "YREC",
+        "Measure Data\tVersion 1.00.00",
+        "\t".join(["Ch", *channels, "Message"]),
+        "\t".join(["Tag", *tags, ""]),
+        "\t".join(["Unit", *("C" for _ in channels[:-1]), "mV", ""]),
+        "\t".join(["Type", *("Meas" for _ in channels), "Message"]),
+        "\t".join(["Kind", *("Inst" for _ in channels), "Count"]),
+        "Sampling Data",
+    ]
+    (folder / "a.txt").write_text("\n".join([*head, *(r + "\t" for r in rows), ""]))
+    layout = open_table(folder / "a.txt", Source(timezone="UTC")).layout
+    return [layout.names, layout.units]
+
+
+@pytest.mark.parametrize("left_out", [None, 1])
+def test_names_of_a_recorder_are_those_of_its_tags_whichever_channels_it_has(
+    tmp_path: Path, left_out: int | None
+) -> None:
+    channels, tags = ["001", "002", "003", "004"], ["T_front", "T_rear", "T_bed", "dZ"]
+    kept = [k for k in range(4) if k != left_out]
+    names, units = _of_a_recorder(tmp_path, [channels[k] for k in kept], [tags[k] for k in kept])
+    assert list(names[1 : 1 + len(kept)]) == [tags[k] for k in kept]
+    assert list(units[1 : 1 + len(kept)]) == [*("C" for _ in kept[:-1]), "mV"]

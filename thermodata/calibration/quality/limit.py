@@ -43,12 +43,15 @@ _NINES = np.array(
 )
 _SINGLE = _NINES.astype(np.float32).astype(np.float64)
 _NINES = np.union1d(_NINES, _SINGLE[_SINGLE % 1 != 0])
-_SENTINELS = np.concatenate([_FULL_SCALE, _NINES])
-# a byte's full scale is no share of what is rated, and a row of nines may be what somebody commands
+_CAMPBELL = [6999.0, -6999.0, 7999.0, -7999.0]  # beyond its range, in numbers of two bytes
+_SENTINELS = np.concatenate([_FULL_SCALE, _NINES, _CAMPBELL])
+# a byte's full scale is no share of what is rated, and a row of nines may be what somebody commands: see `no_values`
 _CODES = {
     "load": np.append(_SENTINELS, 255.0),
     **dict.fromkeys(("rotational_speed", "feed", "position", "angle"), _FULL_SCALE),
 }
+_SPEEDS = [6999.0, 7999.0, 9999.0]  # that spindles have, and rapid feeds
+_FAR, _SELDOM = 10.0, 0.05  # spans of the rest, beyond which no drive goes; the share of samples that are codes
 _HUGE = 1e30
 _HOT, _LEAP_K = 250.0, 100.0  # a broken Pt100 reads 850 degC from one sample to the next
 _PILES_UP = 2.0  # times as many samples at the end of a range as on the reading next to it
@@ -100,9 +103,27 @@ def no_values(x: Float1D, quantity: str, written: Float1D | None = None) -> Bool
     are in it, where x was logged in another."""
     codes = _with(codes_of(quantity), written)
     ends = np.array([np.fmin.reduce(x), np.fmax.reduce(x)]) if len(x) else np.zeros(2)
+    never = _never_commanded(x, ends) if quantity in _CODES else np.zeros(len(x), dtype=bool)
     if not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():
-        return np.zeros(len(x), dtype=bool)
-    return sentinels(x, run_stats(x), codes)
+        return never
+    return never | sentinels(x, run_stats(x), codes)
+
+
+def _never_commanded(x: Float1D, ends: Float1D) -> Bool1D:
+    """Where a code that may be commanded, as a row of nines, is none of it, shape (n,): seldom, without a ramp to it,
+    and below zero where the rest never is, or many spans beyond the rest. ends: the least and the largest of x."""
+    none: Bool1D = np.zeros(len(x), dtype=bool)
+    if not np.isin(ends, _SENTINELS).any():
+        return none
+    coded: Bool1D = np.isin(x, _SENTINELS)
+    rest = x[~coded & np.isfinite(x)]
+    if len(rest) < 10 or np.count_nonzero(coded) > _SELDOM * len(x):
+        return none
+    low, high = float(rest.min()), float(rest.max())
+    span = max(high - low, abs(high), 1.0)
+    below = (x < 0) & (low >= 0) & ~np.isin(-x, x[x > 0])
+    far = (x > high + _FAR * span) & ~np.isin(x, _SPEEDS) | (x < low - _FAR * span)
+    return coded & (below | far)
 
 
 def _with(codes: Float1D, written: Float1D | None) -> Float1D:

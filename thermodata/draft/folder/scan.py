@@ -14,6 +14,7 @@ from pathlib import Path, PurePosixPath
 from thermodata.archive.cut import cut_archives
 from thermodata.archive.members import size_of
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
+from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import (
     RawFile,
     claimant,
@@ -66,6 +67,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         look.at(path)
+    look.again_as_others()
     logs = look.logs
     for one, whole in in_every_file(look.apart).items():
         logs = {key: made for key, made in logs.items() if str(made.path) != one} | {one: whole}
@@ -122,6 +124,17 @@ class _Look:
                 self._keep(who, path, read[0], self._sampled_now(path, *read))
         except _UNREAD as error:
             self.ignored.append((str(path), short(error)))
+
+    def again_as_others(self) -> None:
+        """Looks once more at files that no reader could read, in the one encoding that the others tell."""
+        told = common(f.letters for f in self.logs.values())
+        if self.encoding is not None or told is None:
+            return
+        self.encoding, again = told, {path for path, _ in self.failed}
+        self.failed = []
+        self.ignored = [(path, why) for path, why in self.ignored if path not in again]
+        for path in sorted(again):
+            self.at(PurePosixPath(path))
 
     def _is_no_log(self, path: PurePosixPath) -> str | None:
         """Why a file is not even asked about: by its name, or another one that holds the same; None where it is."""

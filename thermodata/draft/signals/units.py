@@ -18,6 +18,7 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "K": ("temperature", "temperature_difference"),
     "um": ("displacement",),
     "nm": ("displacement",),
+    "pm": ("displacement",),
     "mm": ("position", "displacement"),
     "rpm": ("rotational_speed",),
     "turn/second": ("rotational_speed",),

@@ -73,8 +73,11 @@ class Values:
         return self.body or (self.low, self.high)
 
     def span(self) -> str:
-        """'19.8 to 34.5'."""
-        return f"{self.low:.4g}" if self.constant else f"{self.low:.4g} to {self.high:.4g}"
+        """'19.8 to 34.5', with as many digits as tell the two apart."""
+        if self.constant:
+            return f"{self.low:.4g}"
+        digits = next((n for n in range(4, 17) if f"{self.low:.{n}g}" != f"{self.high:.{n}g}"), 17)
+        return f"{self.low:.{digits}g} to {self.high:.{digits}g}"
 
 
 def values_of(column: Array) -> Values | None:

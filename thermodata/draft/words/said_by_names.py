@@ -96,6 +96,7 @@ def _value(text: str, thousands: bool = False) -> float:
 
 def _speed(texts: Sequence[str]) -> Said:
     """The speed or the schedule; the readings of a speed that has several, and which is asked."""
+    texts = [_DATE.sub(" ", t) for t in texts]  # 'speed-2026-09-01' says none
     if match := _first(_SCHEDULE, texts):
         parts = re.split(r"[+>-]", match[1] or match[3])
         thousands = (match[2] or match[4] or "").startswith("k") or parts[-1].endswith("k")

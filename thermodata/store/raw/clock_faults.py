@@ -3,7 +3,7 @@
 A stray is a time of one to three rows that lies far from its neighbours: it is drawn between them. A leap forward by
 more than a year is a clock without a battery that was set while it ran: what came before is moved up to it. After a
 step back of up to two minutes (a time server) the rows go on behind what came before; after a longer one only where
-the campaign file allows it.
+the campaign file allows it, and while what is joined ends within the times that are counted at all.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from thermodata.schema.words.sentences import counted
 
 JITTER_NS = 1_000_000_000  # a step back up to this is disorder
 SMALL_NS = 120_000_000_000  # up to this, what a time server corrects
+FARTHEST_NS = 2**62  # in 2116: dates that go back by decades again and again are no clock's
 MOST_STRAYS = 3
 _RECENT = 100
 
@@ -66,7 +67,7 @@ class Faults:
                 continue
             if int(t[row]) > high:
                 self._leap(t, row, first, high)
-            elif self.resets_allowed or high - int(t[row]) <= SMALL_NS:
+            elif self._joins(high, int(t[row])):
                 self._reset(t, row, first, high)
             else:
                 self.keep = first + row
@@ -75,6 +76,10 @@ class Faults:
             self._highest, at = int(t[row]), row
         self._done(t[:own])
         return True
+
+    def _joins(self, high: int, back: int) -> bool:
+        """Whether rows from a step back on, from one time to another [ns], are moved behind those before."""
+        return high - back <= SMALL_NS or (self.resets_allowed and 2 * high - back < FARTHEST_NS)
 
     def _done(self, t: Int1D) -> None:
         self._highest = max(self._highest, int(t.max(initial=self._highest)))

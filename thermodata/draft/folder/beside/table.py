@@ -160,6 +160,8 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
     if best is None or best[0] < max(2, 0.6 * len(tests)):
         return None
     _, key_column, named = best
+    if _are_subtotals([r[key_column] if key_column < len(r) else "" for r in lines], named):
+        return None
     found: dict[str, dict[str, str]] = {}
     conditions = _conditions([title if c != key_column else "" for c, title in enumerate(header)])
     for i, test in named.items():
@@ -170,6 +172,13 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
         }
     times = listed_times(file, header, {test: lines[i] for i, test in named.items()})
     return TestTable(file, header[key_column], found, times)
+
+
+def _are_subtotals(keys: Sequence[str], named: Mapping[int, str]) -> bool:
+    """Whether the tests of a table have rows of their own sums below them ('T1', then 'T1 Total'): what is summed up
+    there is measured, and no condition of a test. keys: the cells that name the rows; named: row -> test."""
+    summed = sum(any(k.startswith(f"{keys[i]} ") for k in keys[i + 1 :]) for i in named)
+    return 2 * summed > len(named)
 
 
 def _stem(cell: str) -> str:

@@ -123,8 +123,13 @@ def of_quantities_that_share_a_unit_the_name_tells_which(signal: Called) -> Gues
 
 def turns_a_second_may_be_a_frequency(signal: Called) -> Guess | None:
     unit = signal.unit
-    if signal.possible or not units.converts(unit, "rotational_speed") or "hz" in unit.casefold():
+    if signal.possible or not units.converts(unit, "rotational_speed"):
         return None
+    if "hz" in unit.casefold():
+        if not any(place.startswith("spindle") for place in places_in(signal.own)):
+            return None
+        which = f"quantity: rotational_speed, in turns a second, or another frequency? ({range_text(signal.values)})"
+        return signal.asked("rotational_speed", which, "name", "unit")
     return signal.none(f"quantity: rotational_speed, in turns a second, or a frequency? ({range_text(signal.values)})")
 
 

@@ -82,4 +82,6 @@ def _stronger(named: tuple[str, ...], own: str, unit: str | None) -> bool:
         return False
     possible = units.quantities_of(unit)
     weak = (foreign_in(own) or "").startswith(_WEAK)
+    if weak and tuple(possible) == ("displacement",):  # of an instrument that is called IDS
+        return True
     return possible[:1] in (("temperature",), ("rotational_speed",)) or (weak and any(q in possible for q in named))

@@ -1,4 +1,5 @@
-"""Quality and status of logged values: OPC's classic codes, OPC UA's status codes, and their words."""
+"""Quality and status of logged values: OPC's classic codes, of 8 bit or of 16 with a vendor's byte above, OPC UA's
+status codes of 32 bit, and their words."""
 
 from __future__ import annotations
 
@@ -36,6 +37,10 @@ _NO_FAULT = ("false", "ok", "none", "no", "no error", "good", "-", "nein", "kein
 _INITIAL = 133  # the first value of Wonderware's answer, whose quality is 0 (good), 1 (bad), 16 (doubtful) or this
 _GOOD = frozenset({0, 1, _INITIAL, *range(192, 220), 248, 249, 252})  # somewhere
 _KNOWN = _GOOD | {*range(4, 33, 4), *range(64, 92, 4)}
+_WORD = range(0x100, 0x10000)  # OPC's classic quality below a vendor's byte
+# what its low byte keeps: uncertain, and good. Not all above 192, for 500 is a stale value in Ignition.
+_KEPT = frozenset({*range(64, 96), *range(192, 220)})
+_IGNITION, _IGNITION_GOOD = "dataintegrity", 192  # by its manual all else is bad
 
 
 def _code(text: str) -> int | None:
@@ -61,25 +66,32 @@ def are_qualities(statuses: Iterable[str], name: str) -> bool:
     words = {text for text in texts if text.startswith((*_GOOD_WORDS, *_BAD_WORDS))}
     codes = {_code(text) for text in texts - words}
     known = all(c is not None and (c in _KNOWN - none or c > 255) for c in codes)
-    return known and (bool(codes & _GOOD) or any(is_good(word, True) for word in words))
+    low = {c & 0xFF for c in codes if c is not None and c in _WORD}
+    good = codes & _GOOD or (low <= _KNOWN and low & _KEPT)
+    return known and (bool(good) or any(is_good(word, True) for word in words))
 
 
 def zero_is_good(statuses: Iterable[str], name: str) -> bool | None:
-    """What the code 0 means: Good in OPC UA and in Wonderware, bad in OPC's classic quality (where 192 is good) and
-    where 1 means valid; None where the codes do not tell which, nor the name. statuses: sampled ones; name: the
-    column's."""
+    """What the code 0 means: Good in OPC UA, whose codes have 32 bit, and in Wonderware; bad in OPC's classic quality
+    (where 192 is good, of 16 bit its low byte) and where 1 means valid; None where the codes do not tell which, nor the
+    name. statuses: sampled ones; name: the column's."""
     codes = {c for c in (_code(s.strip()) for s in statuses) if c is not None}
-    if any(c > 255 for c in codes):
+    if any(c > 0xFFFF for c in codes):
         return True
-    if codes & {*range(64, 256)} - {_INITIAL}:
+    classic = codes & {*range(64, 256)} - {_INITIAL} or {c & 0xFF for c in codes if c in _WORD} & _KEPT
+    if classic or _is_ignition(name):
         return False
     if _INITIAL in codes:
         return True
     called_valid = "valid" in name.casefold()
     if {0, 1} <= codes:
         return False if called_valid else None
-    classic = called_valid or "qual" in name.casefold()
-    return None if classic and 0 in codes and codes <= {0, 16} else not classic and 1 not in codes
+    may_be_classic = called_valid or "qual" in name.casefold()
+    return None if may_be_classic and 0 in codes and codes <= {0, 16, *_WORD} else not may_be_classic and 1 not in codes
+
+
+def _is_ignition(name: str) -> bool:
+    return name.casefold().endswith(_IGNITION)
 
 
 def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str, where: str) -> bool:
@@ -109,20 +121,22 @@ def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str
 
 
 @lru_cache(maxsize=4096)
-def is_good(status: str, zero: bool) -> bool:
-    """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, or UA's codes below bad; no
-    status at all too. zero: what the code 0 means; 1 means the other."""
+def is_good(status: str, zero: bool, name: str = "") -> bool:
+    """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, of 16 bit by their low byte, or
+    UA's codes below bad; no status at all too. zero: what the code 0 means; 1 means the other. name: the column's."""
     text = status.strip().casefold()
     if not text or text.startswith(_GOOD_WORDS):
         return True
     code = _code(text)
     if code is None:
         return False
+    if _is_ignition(name):
+        return code == _IGNITION_GOOD
+    if code > 255:
+        return code & 0xFF in _KEPT if code in _WORD else code >> 30 < 2
     if code == 0:
         return zero
-    if zero:
-        return code != 1 and code >> 30 < 2
-    return code == 1 or 64 <= code <= 255 or (code > 255 and code >> 30 < 2)
+    return code != 1 if zero else code == 1 or code >= 64
 
 
 @lru_cache(maxsize=4096)

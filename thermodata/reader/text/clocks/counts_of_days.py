@@ -16,6 +16,7 @@ from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_e
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
+_DATE_NAME = re.compile(r"(?i)dat")
 _MJD_2000 = 51_544
 _LOGGED_YEARS = 1.5e-4  # from row to row: an hour and a bit, as four digits behind the point have it
 _QUICK_S = 5e-6  # from row to row: what measures heat is slower by far
@@ -58,7 +59,7 @@ def count_question(name: str, values: Array, where: str, column: int | None = No
 def excel_or_question(name: str, values: Array, where: str, other: str) -> str:
     """'excel' for what may be Excel's days where the name says that it is a date; QuestionError elsewhere. other: the
     unit in which the numbers count from a start, if they do."""
-    if re.search(r"(?i)dat", name):
+    if _DATE_NAME.search(name):
         return "excel"
     days = f"excel (days since 1900: {_day(values[0], 'excel')})"
     if values[0] > _MJD_2000:
@@ -105,6 +106,18 @@ def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: boo
     then = f"{finite[0]:.14g} is {when(finite[0], epoch)} then, and none in {unit}"
     ask = f"unit of the time: is '{name}' in {epoch}? {then}"
     raise QuestionError(what, ask=ask, declare=answer, meanwhile=answer, times=[name], **said)
+
+
+def days_note(name: str, values: Array, unit: str) -> list[str]:
+    """What is told of a declared unit in which numbers that are days counted from a date are read as a span."""
+    finite = values[np.isfinite(values)]
+    days = "excel" if _DATE_NAME.search(name) and may_be_excel(finite) else counted_by(name, finite)
+    if unit not in SECONDS or not finite.size or days is None:
+        return []
+    return [
+        f"'{name}' is read in {unit}, as declared; by itself it counts {days}, from {when(finite[0], days)}: "
+        f"declare table: {{time: {{unit: {days}}}}} if it does"
+    ]
 
 
 def quick_note(name: str, values: Array, unit: str) -> str | None:

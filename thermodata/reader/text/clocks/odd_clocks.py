@@ -3,6 +3,7 @@ is read, and without it all rows of a day would stand at midnight."""
 
 from __future__ import annotations
 
+import datetime as dt
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -12,17 +13,19 @@ from thermodata.reader.text.cells.calendar_words import folded, is_worded_date
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.clocks.time_questions import format_question
-from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.clocks.format_question import format_question
+from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.times.days_without_year import is_day_without_year, is_week_without_year
-from thermodata.reader.text.times.odd_stamps import guess_format, is_iso_week
+from thermodata.reader.text.times.odd_stamps import fitting_formats, guess_format, is_iso_week
 from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day
 _EACH = 0.9  # of the rows, that have a text of their own
 _WEEKDAY_FIRST = re.compile(r"[^\W\d_]{2,10}[.,]{0,2} ?\d{1,4}([-/.])\d{1,2}\1\d{2,4}")  # Mo 04.05.2026
 _DAY_WORDS = frozenset(("tag", "day", "jour", "giorno", "dia", "den", "dzien", "dag", "nap", "data", "messtag"))
-_DASHED = re.compile(r"([01]?\d|2[0-3])-([0-5]\d)-([0-5]\d)")
+_CLOCK = re.compile(r"([01]?\d|2[0-3])([-.])([0-5]\d)\2([0-5]\d)")  # 08-00-00, 08.00.00
+_POINTED = re.compile(r"([01]?\d|2[0-3])[.,]([0-5]\d)")  # 08.59
+_YEARS, _DAYS = 3, frozenset(range(1, 32))  # a column of dates is of fewer, or has days last
 _SHAPE = re.compile(r"([01]?\d|2[0-3])\D{1,4}[0-5]\d(\D.*)?")  # 8h05, 08-00-00, 8 Uhr 05
 
 
@@ -32,14 +35,20 @@ def clock_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError |
     if len(columns) != 1:
         return None
     (place,) = columns
-    days = [r[place].strip() for r in seen.rows if isinstance(r[place], str) and is_dated(r[place])]
+    if looks_like_dates(cells := seen.column(place)):
+        first = next(c.strip() for c in cells if isinstance(c, str) and c.strip())
+        mark = first.lstrip("0123456789")[0]
+        return format_question((place,), seen, mark.join(("%H", "%M", "%S")), first, ", or a format of dates")
+    dated = [(r, day) for r in seen.rows if (day := _day_of(r[place]))]
+    days = [day for _, day in dated]
     if not days or any(map(says_the_hour, days)) or max(Counter(days).values()) < _MANY:
         return None
     others = [i for i in range(len(seen.names)) if i != place and _differs(i, seen.rows)]
-    dashed = next((i for i in range(len(seen.names)) if i != place and are_dashed_clocks(seen.column(i))), None)
-    if dashed is not None:
-        together = [f"{day} {str(r[dashed]).strip()}" for day, r in zip(days, seen.rows, strict=False)]
-        return format_question((place, dashed), seen, guess_format(together), together[0])
+    odd = next((i for i in range(len(seen.names)) if i != place and _is_odd_clock(i, seen)), None)
+    if odd is not None:
+        together = [f"{day} {str(r[odd]).strip()}" for r, day in dated if r[odd] not in ("", None)]
+        forms = fitting_formats(together)
+        return format_question((place, odd), seen, forms[0] if len(forms) == 1 else None, together[0], either=forms)
     if not others:
         return None
     worded = (i for i in others if is_time_header(seen.names[i]))
@@ -111,14 +120,44 @@ def _period_question(place: int, day: str, seen: FirstRows) -> QuestionError:
     )
 
 
-def are_dashed_clocks(cells: Sequence[Cell]) -> bool:
-    """Whether cells are times of day such as 08-00-00, which look like dates of two digits: in either order of day and
-    month some of them are none."""
-    parts = [_DASHED.fullmatch(c.strip()) for c in cells if isinstance(c, str) and c.strip()]
-    found = [tuple(map(int, match.groups())) for match in parts if match is not None]
+def _day_of(cell: Cell) -> str:
+    """The text of a date without a time of day; '' of another cell."""
+    if isinstance(cell, str):
+        return cell.strip() if is_dated(cell) else ""
+    if isinstance(cell, dt.datetime):
+        return cell.isoformat(" ").removesuffix(" 00:00:00")
+    return cell.isoformat() if isinstance(cell, dt.date) else ""
+
+
+def _is_odd_clock(column: int, seen: FirstRows) -> bool:
+    """Whether a column beside one of days holds times of day that are not read as such."""
+    return looks_like_dates(seen.column(column)) or are_pointed_clocks(column, seen)
+
+
+def are_pointed_clocks(column: int, seen: FirstRows) -> bool:
+    """Whether numbers under a word for time are hours and minutes (8.59, then 9.00): minutes of two digits that never
+    reach 60, behind hours of two digits or over the end of one."""
+    texts = [c.strip() for c in seen.column(column) if isinstance(c, str) and c.strip()]
+    parts = [match for c in texts if (match := _POINTED.fullmatch(c)) is not None]
+    if not is_time_header(seen.names[column]) or unit_of_time(seen.names[column], seen.units[column]) is not None:
+        return False
+    if len(parts) < max(_MANY, len(texts)):
+        return False
+    hours = {match[1] for match in parts}
+    return any(hour[0] == "0" and len(hour) == 2 for hour in hours) or (
+        len(hours) > 1 and any(int(match[2]) >= 50 for match in parts)
+    )
+
+
+def looks_like_dates(cells: Sequence[Cell]) -> bool:
+    """Whether cells are times of day such as 08-00-00 or 08.00.00, which look like dates of two digits: in either order
+    of day and month some of them are none, or they would be of many years."""
+    parts = [_CLOCK.fullmatch(c.strip()) for c in cells if isinstance(c, str) and c.strip()]
+    found = [tuple(map(int, match.group(1, 3, 4))) for match in parts if match is not None]
     if not found or len(found) < len(parts):
         return False
-    return all(
+    last = {second for _, _, second in found}
+    return (len(last) >= _YEARS and not last <= _DAYS) or all(
         any(not (1 <= numbers[month] <= 12 and 1 <= numbers[day] <= 31) for numbers in found)
         for day, month in ((0, 1), (1, 0))
     )

@@ -12,7 +12,7 @@ from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_num
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
-from thermodata.reader.text.clocks.odd_clocks import are_dashed_clocks
+from thermodata.reader.text.clocks.odd_clocks import are_pointed_clocks, looks_like_dates
 from thermodata.reader.text.clocks.transposed import ADVICE, is_transposed
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside
 from thermodata.reader.text.names.called_column import by_name
@@ -74,7 +74,8 @@ def find_time(seen: FirstRows, likely: tuple[int, ...] = ()) -> tuple[int, ...]:
 class _Columns:
     """What the columns of a table look like. places: those that may be a time; filled: the cells of each that hold
     something; words: those that are called a time; dates: those of dates that go on; standing: those of dates that do
-    not tell its rows apart; clocks: of times of day; numbers: of those that are called a time."""
+    not tell its rows apart; clocks: of times of day; pointed: of those with a point between hours and minutes, beside
+    dates; numbers: of those that are called a time."""
 
     seen: FirstRows
     places: Sequence[int]
@@ -83,6 +84,7 @@ class _Columns:
     dates: Sequence[int]
     standing: Set[int]
     clocks: Sequence[int]
+    pointed: Sequence[int]
     numbers: Sequence[int]
 
 
@@ -93,21 +95,22 @@ def _looked_at(seen: FirstRows, likely: tuple[int, ...]) -> _Columns:
     places = [i for i in places if not (OF_TEXT.search(seen.names[i]) and 2 * len(filled[i]) < len(seen.rows))]
     words = [i for i in places if i in likely or is_time_header(seen.names[i])]
     dates = [i for i in places if _are(filled[i], is_dated, 0.8)]
-    dashed = [i for i in dates if are_dashed_clocks(filled[i])]  # beside a date they are times of day
-    dates = [i for i in dates if i not in dashed] or dates
+    dates = [i for i in dates if not looks_like_dates(filled[i])] or dates  # beside a date they are times of day
+    pointed = [i for i in words if dates and are_pointed_clocks(i, seen)]
     clocks = [i for i in places if _are(filled[i], is_clocked, 0.8)]
     of_day = [i for i in words if since_midnight(seen.names[i]) is not None and _are(filled[i], is_number, 0.6)]
     standing = _standing(
         {i: [c for c in filled[i] if is_dated(c)] for i in dates},
         [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
     )
-    numbers = [i for i in words if _are(filled[i], is_number, 0.6)]
+    numbers = [i for i in words if i not in pointed and _are(filled[i], is_number, 0.6)]
     counting = any(_numbers_go_on(filled[i]) for i in numbers)
     if counting and not clocks and not of_day:
         standing |= {i for i in dates if _days_of_many_rows(filled[i])}
     if len(standing) == len(dates) and not (counting or _parts_go_on(seen)):
         standing = set()
-    return _Columns(seen, places, filled, words, [i for i in dates if i not in standing], standing, clocks, numbers)
+    dates = [i for i in dates if i not in standing]
+    return _Columns(seen, places, filled, words, dates, standing, clocks, pointed, numbers)
 
 
 def _are(cells: Sequence[Cell], test: Callable[[Cell], bool], least: float) -> bool:
@@ -125,7 +128,7 @@ def _by_dates(of: _Columns) -> tuple[int, ...]:
     sample = filled[first][0]
     has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or tell_the_hour(filled[first])
     found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
-    if not clocks and not tell_the_hour(filled[first]):
+    if not clocks and not of.pointed and not tell_the_hour(filled[first]):
         found = (first, *columns_of_clock(first, seen))
     whole = with_parts(found, seen)
     if whole != found:

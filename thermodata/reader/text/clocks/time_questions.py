@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -15,11 +14,12 @@ from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
+from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.clock_numbers import days_beside, fraction_question, year_and_day
+from thermodata.reader.text.times.clock_numbers import DAYS_OF_YEAR, days_beside, fraction_question, year_and_day
 from thermodata.reader.text.times.date_parts import declared_parts
 from thermodata.reader.text.times.gps_weeks import find_weeks
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.odd_stamps import fitting_formats, guess_format
 from thermodata.reader.times.open_questions import UNKNOWN, unit_question
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, found_epoch
 
@@ -40,7 +40,7 @@ def no_time(seen: FirstRows) -> QuestionError | None:
     if worded is None:
         return time_question(seen)
     place, words = worded
-    return format_question((place,), seen, guess_format(words), words[0])
+    return format_question((place,), seen, guess_format(words), words[0], either=fitting_formats(words))
 
 
 def weeks_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | None:
@@ -118,6 +118,7 @@ def time_question(seen: FirstRows) -> QuestionError | None:
     rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in seen.rows)
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     low = seen.names[place].strip().lower().removesuffix("()")
+    low = "d" if low in DAYS_OF_YEAR else low
     unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
     column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
@@ -272,26 +273,3 @@ def without_word(cell: Cell) -> Cell:
     """A cell without the word for a zone behind its time."""
     word = word_behind(cell) if isinstance(cell, str) and ":" in cell else None
     return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
-
-
-def format_question(
-    columns: tuple[int, ...], seen: FirstRows, form: str | None, got: str, otherwise: str = ""
-) -> QuestionError:
-    """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed. otherwise:
-    what else may be declared."""
-    column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
-    asked = (
-        f"format of the times, in strptime's letters ('%d-%b-%Y %H:%M:%S'), or period: 10 s? they begin with '{got}'"
-    )
-    said = {"time": {"column": column, "format": form or UNKNOWN}}
-    return QuestionError(
-        "times that are written in no way that is read by itself",
-        where=seen.where,
-        expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
-        got=got,
-        hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}{otherwise}",
-        times=[seen.names[c] for c in columns],
-        ask=f"format of the times: is '{got}' {form}?" if form else asked,
-        declare=said,
-        meanwhile=said if form else {"time": {"period": 1.0}},
-    )

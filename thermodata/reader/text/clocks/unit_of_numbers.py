@@ -7,7 +7,7 @@ import numpy as np
 
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
+from thermodata.reader.text.clocks.counts_of_days import days_note, quick_note, refuse_beyond
 from thermodata.reader.text.clocks.counts_of_seconds import far_question, scale_question
 from thermodata.reader.text.clocks.time_questions import epoch_in, of_day_question, size_of_clock
 from thermodata.reader.text.names.time_header import unit_of_time
@@ -43,5 +43,6 @@ def unit_of_numbers(place: int, seen: FirstRows, declared: str | None) -> tuple[
     refuse_beyond(name, values, known, seen.where, declared=declared is not None)
     if declared is None and (asked := far_question(name, values, known, seen.where)) is not None:
         raise asked
+    notes += days_note(name, values, known) if declared is not None else []
     quick = quick_note(name, values, known)
     return known, [*notes, *([quick] if quick else [])]

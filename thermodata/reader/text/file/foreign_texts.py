@@ -17,6 +17,10 @@ _DECIMAL_COMMA = re.compile(r"([=:]\s?[+-]?\d+),\d+(?![\d.])")  # 'T1=21,97': no
 _CELL_OF_NUMBERS = re.compile(r"[;\t,|]\s*\"?[+-]?\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?\"?\s*(?=[;\t,|]|$)")
 _MESSAGE = re.compile(r"[^\s{}\"]+(?: [^\s{}\"]+)? +\{\".*\}")
 _SCRAPED = re.compile(r"[a-zA-Z_:][\w:]*(?:\{[^{}]*\})? [+-]?(?:\d|NaN|Inf)[^\s]*(?: -?\d+)?")
+_OF_CAN = re.compile(
+    r"(?:\(\d+\.\d+\)\s+)?v?s?l?can\d+\s+[0-9A-Fa-f]{3,8}(?:##?[0-9A-FaRr.]*|\s+\[\d+\](?:\s+[0-9A-F]{2})*)(?: .*)?"
+)
+_OF_RRD = re.compile(r"\d{9,10}:(?:\s+(?:[+-]?\d\.\d+e[+-]\d+|-?nan))+", re.IGNORECASE)
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
 _FEWEST = 2
 
@@ -82,7 +86,61 @@ def _is_messages_of_json(lines: Sequence[str]) -> bool:
     return len(points) >= _FEWEST and all(map(_MESSAGE.fullmatch, points))
 
 
+def _is_spreadsheet_in_xml(lines: Sequence[str]) -> bool:
+    """Whether it is a workbook in one XML: that of Excel 2003 (<Workbook>), or a flat one of LibreOffice."""
+    text = " ".join(lines[:6])
+    flat = "<office:document" in text and "opendocument.spreadsheet" in text
+    return lines[0].startswith("<?xml") and (flat or "urn:schemas-microsoft-com:office:spreadsheet" in text)
+
+
+def _is_multipart_of_mtconnect(lines: Sequence[str]) -> bool:
+    """Whether it is the stream that an agent sends: parts with a boundary and a type before each document."""
+    head = [line.casefold() for line in lines[:6]]
+    return head[0].startswith("--") and any(h.startswith("content-type:") and "xml" in h for h in head[1:])
+
+
+def _is_dump_of_can(lines: Sequence[str]) -> bool:
+    points = lines[:-1] or lines
+    return len(points) >= _FEWEST and all(map(_OF_CAN.fullmatch, points))
+
+
+def _is_dump_of_rrd(lines: Sequence[str]) -> bool:
+    """Whether `rrdtool fetch` printed it: names, then '1773129600: 2.11e+01 2.15e+01'."""
+    points = lines[1:-1]
+    return len(points) >= _FEWEST and all(map(_OF_RRD.fullmatch, points))
+
+
+def _is_rows_apart(lines: Sequence[str]) -> bool:
+    """Whether a client of a database printed each row as a list of its columns: MySQL's \\G, PostgreSQL's \\x."""
+    return re.match(r"\*{10,} 1\. row \*{10,}|-\[ RECORD 1 \]-", lines[0]) is not None
+
+
 _KNOWN = (
+    (
+        _is_spreadsheet_in_xml,
+        "a workbook in one XML file (of Excel 2003, or a flat one of LibreOffice)",
+        "save it as XLSX: open it in Excel or LibreOffice, or soffice --headless --convert-to xlsx FILE",
+    ),
+    (
+        _is_multipart_of_mtconnect,
+        "the stream of an agent of MTConnect, with lines of HTTP between its documents",
+        "take out the lines that begin with -- and Content-: grep -av -e '^--' -e '^Content-' FILE > stream.xml",
+    ),
+    (
+        _is_dump_of_can,
+        "messages of a CAN bus in bytes (candump)",
+        "decode them by the DBC file of the bus, as asammdf and cantools do, to MDF or to a CSV of time,name,value",
+    ),
+    (
+        _is_dump_of_rrd,
+        "what rrdtool fetch prints",
+        "make a CSV of it: sed -E '/^ *$/d; 1s/^ */time,/; s/^([0-9]+): */\\1,/; s/ +/,/g' FILE > rrd.csv",
+    ),
+    (
+        _is_rows_apart,
+        "rows of a database, each printed as a list of its columns",
+        "ask again for a table: mysql --batch (no \\G), or psql --csv (no \\x)",
+    ),
     (
         _is_scrape,
         "the text of a scrape of Prometheus",

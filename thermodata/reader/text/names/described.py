@@ -16,12 +16,14 @@ _OF_NAMES = re.compile(
     r"(name|label|comment|description|tag|title|bezeichnung|kommentar|beschreibung|kanalname|název|popis|nom|nombre)|"
     r"信号名称?|通道名称?|名称|名稱|注释|コメント|チャンネル名|名前|신호명|채널명|이름"
 )
+_SAID_OF_ONE = re.compile(r"[#%'*/ ]*(?P<name>[^:=]{1,60}?)\s*[:=]\s*(?P<said>\S.{0,200}?)\s*")
 _FEWEST = 2  # columns that a row of comments, or a list without a header, speaks of: of one, it may be the whole file
 
 
 def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
+    rows = _parted(rows, names)
     at = names_at(rows, names)
     below = [row for row in rows[at + 1 :] if row and is_of_descriptions(row)]
     rows = rows[:at]
@@ -34,6 +36,17 @@ def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[l
     for row in below:
         said = said if any(said) else _of_row(row, names)
     return said, units
+
+
+def _parted(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[Sequence[str]]:
+    """The rows, those of one cell that say a column's name and more (`# Channel 1: front bearing`) as these two."""
+    known = {_key(n) for n in names if n}
+
+    def parted(row: Sequence[str]) -> Sequence[str]:
+        match = _SAID_OF_ONE.fullmatch(row[0]) if row and not any(row[1:]) else None
+        return [match["name"], match["said"]] if match is not None and _key(match["name"]) in known else row
+
+    return [parted(row) for row in rows]
 
 
 def names_at(rows: Sequence[Sequence[str]], names: Sequence[str]) -> int:

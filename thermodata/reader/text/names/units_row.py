@@ -12,8 +12,11 @@ STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sampl
 # what controls and loggers write of the type of each column, or of how it was sampled
 _TYPE = re.compile(
     r"(?i)l?real|float(32|64)?|double|single|u?[sld]?int(8|16|32|64)?|bool(ean)?|[dl]?word|byte|w?string|w?char|"
-    r"l?dt|date_and_time|datetime|l?tod|time_of_day|inst(antaneous)?"
+    r"l?dt|date_and_time|datetime|l?tod|time_of_day|inst(antaneous)?|meas(ured)?|math|comm"
 )
+# what recorders call such a row in its first cell, and the column of messages in its last
+_ROW_CALLED = re.compile(r"(?i)(data )?type|kind")
+_MESSAGES = re.compile(r"(?i)messages?|count")
 _OF_TIME = re.compile(r"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|hh?:mm(?::ss)?)[\])]?")
 # what loggers write in the row of units for stamps, numbers of records and alarms
 _NO_UNIT = re.compile(r"(?i)ts|rn|no\.?|time|zeit|date|datum|-+|alarm.*|[a-z]\d{3,}")
@@ -64,6 +67,8 @@ def without_types(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
 
 def _says_types(row: Sequence[str]) -> bool:
     filled = [c for c in row if c]
+    if filled and _ROW_CALLED.fullmatch(filled[0]):
+        filled = filled[1:-1] if _MESSAGES.fullmatch(filled[-1]) else filled[1:]
     types = sum(_TYPE.fullmatch(c) is not None for c in filled)
     return (
         len(filled) > 1

@@ -11,7 +11,8 @@ STREAM = "table"
 class Group:
     """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
     time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals; counted: no column
-    holds the time, `seconds` pass from row to row."""
+    holds the time, `seconds` pass from row to row; others: cells of rows of other kinds, which stand among these and
+    take no time."""
 
     stream: str
     time: tuple[int, ...]
@@ -20,6 +21,7 @@ class Group:
     epoch: str | None
     columns: tuple[int, ...]
     counted: bool = False
+    others: frozenset[int] = frozenset()
 
     @property
     def dated(self) -> bool:

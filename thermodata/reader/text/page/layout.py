@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from thermodata.errors import FormatError, QuestionError
@@ -31,6 +31,7 @@ from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
 
 _ROWS_BELOW = 200  # of data, by which columns are told
+_OFTEN = 0.05  # of the rows, that have a number of cells of their own: no damage
 _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 
 
@@ -71,6 +72,11 @@ class Layout:
     def dated(self) -> tuple[int, ...]:
         """Columns of dates and times that are read as text."""
         return tuple(i for g in self.groups if g.dated for i in g.time)
+
+    @property
+    def of_dates(self) -> bool:
+        """Whether the times of some group are dates, or count from one."""
+        return any(g.epoch is not None or (g.dated and not g.counted) for g in self.groups)
 
     def stream_of(self, column: int) -> str:
         return next(g.stream for g in self.groups if column in g.columns)
@@ -130,6 +136,13 @@ def find_layout(
         lost = lines_between(head, header.names, header.units)
     seen = FirstRows(header.names, header.units, data, where)
     groups, notes = _times(said.get("time"), seen, lines)
+    if groups[0].counted and (others := _other_kinds(below, width)):
+        groups = [replace(g, others=others) for g in groups]
+        notes = [
+            *notes,
+            f"rows of {' or '.join(map(str, sorted(others)))} cells stand among those of {width}: they are "
+            "of another kind, not read, and take no time",
+        ]
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(header.names[i], seen.column(i), groups[0].seconds, lines) for i in time]
     worded = ", ".join(header.worded.values())
@@ -196,12 +209,19 @@ def _times(declared: Any, seen: FirstRows, lines: Sequence[Sequence[str]]) -> tu
     return groups, [*notes, stated.note(answer["unit"])]
 
 
+def _other_kinds(rows: Sequence[Sequence[Cell]], width: int) -> frozenset[int]:
+    """The numbers of cells of rows that are of no damage: that come again and again with cells of their own."""
+    full = [r for r in rows if any(c not in ("", None) for c in r)]
+    widths = Counter(len(r) for r in full if len(r) > 1)
+    return frozenset(n for n, many in widths.items() if n != width and many > max(1, _OFTEN * len(full)))
+
+
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:
     """The rows that say what columns hold: as wide as the table, or as many others (where a group has ended); a row of
     a width of its own is damaged, and says nothing. Short ones are filled with empty cells."""
     full = [r for r in rows if any(c not in ("", None) for c in r)]
     widths = Counter(len(r) for r in full)
-    usual = {n for n, many in widths.items() if n == width or many > max(1, 0.05 * len(full))}
+    usual = {n for n, many in widths.items() if n == width or many > max(1, _OFTEN * len(full))}
     return [[*r[:width], *[""] * (width - len(r))] for r in full if len(r) in usual or len(full) < 3]
 
 

@@ -98,7 +98,8 @@ class RowClock:
         return days.join(column_times([cells], forms[:1]), clock_ns, empty)
 
     def _counted(self, rows: Rows, peek: bool) -> Int1D:
-        """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
+        """Times of rows that are counted. A line that is lost took its time too, a repeated header took none, nor did a
+        row of another kind."""
         numbers = [
             i for i in self.timed.group.columns if i in rows.columns and rows.columns[i].values.dtype.kind != "O"
         ]
@@ -106,7 +107,7 @@ class RowClock:
         for i in numbers:
             odd[[row for row, _ in rows.columns[i].odd]] += 1
         words = odd == len(numbers) if numbers else np.zeros(rows.n, bool)
-        lost = np.array([b.line for b in rows.bad], np.int64)
+        lost = np.array([b.line for b in rows.bad if b.cells not in self.timed.group.others], np.int64)
         taken = np.cumsum(~words) - 1 + np.searchsorted(lost, rows.line)
         ns: Int1D = np.rint((self.counted + taken) * ((self.timed.group.seconds or 1.0) * 1e9)).astype(np.int64)
         if not peek:

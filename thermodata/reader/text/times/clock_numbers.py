@@ -133,7 +133,7 @@ def year_and_day(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
         return _unnamed(seen)
     words = [split_unit(n)[0].strip(" #.:_").casefold() for n in seen.names]
     year = next((i for i, w in enumerate(words) if w in ("year", "jahr", "rok", "année", "año", "yyyy")), None)
-    day = next((i for i, w in enumerate(words) if w in _DAYS_OF_YEAR), None)
+    day = next((i for i, w in enumerate(words) if w in DAYS_OF_YEAR), None)
     if year is None or day is None:
         return None
     for form in (("hhmm", "%H%M"), ("hhmmss", "%H%M%S"), ("hour", "%H"), ("time", "%H%M")):
@@ -142,22 +142,33 @@ def year_and_day(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
             continue
         reads = partial(_of_year, ("%Y", "%j", form[1]))
         if all(reads(f"{r[year]} {r[day]} {r[clock]}") != NAT for r in seen.rows):
+            second = next((i for i, w in enumerate(words) if w in _WORDS["S"] and form[1] == "%H%M"), None)
+            if second is not None and all(_is_second(r[second]) for r in seen.rows):
+                return (year, day, clock, second), "%Y %j %H%M %S"
             return (year, day, clock), f"%Y %j {form[1]}"
     return None
 
 
+def _is_second(cell: Cell) -> bool:
+    return _CLOCKS["%S"](str(cell)) != NAT
+
+
 def _unnamed(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
-    reads = partial(_of_year, ("%Y", "%j", "%H%M"))
-    for year in range(len(seen.names) - 3):
-        times = [reads(f"{r[year]} {r[year + 1]} {r[year + 2]}") for r in seen.rows]
-        rises = all(a < b for a, b in pairwise(times))
-        if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in seen.rows}) <= 2:
-            return (year, year + 1, year + 2), "%Y %j %H%M"
+    """The same by values; with seconds behind the clock where it alone does not go on, and rows of several kinds may
+    have one time."""
+    for form, least in (("%Y %j %H%M", 1.0), ("%Y %j %H%M %S", 0.5)):
+        pieces = form.split()
+        reads = partial(_of_year, tuple(pieces))
+        for year in range(len(seen.names) - len(pieces)):
+            times = [reads(" ".join(str(c) for c in r[year : year + len(pieces)])) for r in seen.rows]
+            rises = all(a <= b for a, b in pairwise(times)) and len(set(times)) >= least * len(times)
+            if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in seen.rows}) <= 2:
+                return tuple(range(year, year + len(pieces))), form
     return None
 
 
 _SINCE_1990 = 20 * 365 * DAY_NS  # a year of any log
-_DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", "julianday", "julian", "jday", "yday")
+DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", "julianday", "julian", "jday", "yday")
 _CLOCKS = {
     "%H%M": partial(read_joined, 4),
     "%H%M%S": partial(read_joined, 6),

@@ -21,9 +21,14 @@ _ISO_WEEK = re.compile(r"(?:19|20)\d\d-W\d{2}-[1-7]")  # ISO 8601: 2026-W19-1, t
 def guess_format(cells: Sequence[str]) -> str | None:
     """The format of stamps such as '02-Mar-2026 08:00:00', '20260302T080000' or '02.03.2026 08.00.00'; None where none
     fits nearly all cells, or two do. cells: of one column, those that hold something."""
-    some = [c.strip() for c in cells[:: max(1, len(cells) // _FEW)]]
-    fitting = [text for text in dict.fromkeys(_spellings(some[0])) if _share(some, text) >= _ENOUGH] if some else []
+    fitting = fitting_formats(cells)
     return fitting[0] if len(fitting) == 1 else None
+
+
+def fitting_formats(cells: Sequence[str]) -> list[str]:
+    """All formats that fit nearly all stamps, as in `guess_format`."""
+    some = [c.strip() for c in cells[:: max(1, len(cells) // _FEW)]]
+    return [text for text in dict.fromkeys(_spellings(some[0])) if _share(some, text) >= _ENOUGH] if some else []
 
 
 def is_iso_week(cell: str) -> bool:

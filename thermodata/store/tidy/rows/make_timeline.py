@@ -13,7 +13,8 @@ from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.reader.times.newest_first import Steps
 from thermodata.reader.times.step_back import OLDER, cause_of, said
 from thermodata.reader.times.zone import NO_ZONE
-from thermodata.store.raw.order import CHUNK_ROWS, by_time, find_order, in_order
+from thermodata.schema.words.sentences import counted
+from thermodata.store.raw.order import CHUNK_ROWS, Order, by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
 from thermodata.store.tidy.rows.timeline import Timeline
@@ -51,7 +52,7 @@ def make_timeline(
         line.notes += twice.notes()
         order = find_order(line.file_times, n, resets_allowed=resets_allowed, sound=twice.left())
     if order.keep < n:
-        line.losses = (_lost(line, order.keep, n),)
+        line.losses = (_lost(line, order, n, resets_allowed),)
     line.notes += order.notes
     line.order, line.rows = order, order.keep
     return line
@@ -79,14 +80,17 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
     return keys
 
 
-def _lost(line: Timeline, keep: int, n: int) -> Loss:
-    steps = Steps()
+def _lost(line: Timeline, order: Order, n: int, resets_allowed: bool) -> Loss:
+    keep, steps = order.keep, Steps()
     steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
     at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
     absolute, of_day = line.raws[0][0].clock == "absolute", line.raws[0][0].of_day_ns
     local = absolute and any(NO_ZONE in note for note in line.raws[0][0].notes)
     if steps.in_no_order:
         advice = "rows stand in no order of their times: sort the file by them"
+    elif resets_allowed:
+        times = counted(len(order.at), "reset")
+        advice = f"behind {times} no time is left for what follows: are these its times? declare their format or column"
     elif (cause := cause_of(before, at, absolute, local, of_day, line.raws[0][0].notes)) is not None:
         advice = cause
     elif absolute and _latest(line, keep, n) < _earliest(line, keep):

@@ -7,11 +7,10 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.signals.unit_words import holds_units
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import is_number
+from thermodata.reader.text.cells.number import is_empty
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import tells_quality, zero_is_good
 from thermodata.reader.text.cells.time_pattern import TimeFormat
@@ -19,46 +18,20 @@ from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 from thermodata_reader_cnc.opcua.long_times import Times, time_columns, time_form
+from thermodata_reader_cnc.opcua.long_words import TAGS, value_columns, value_pairs
 
-_VALUES = (
-    *("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS, "payload"),
-    *("valeur", "valore", "valor", "waarde", "wartość", "值", "数值", "测量值", "數值", "値", "測定値", "計測値", "값"),
-)
-_TAGS = (
-    *NAME_WORDS,
-    *("topic", "pointname", "channelname", "parametername", "variablename", "messstellenname", "signalbezeichnung"),
-    *("repère", "étiquette", "grandeur", "voie", "etiqueta", "etichetta", "grandezza", "señal", "zmienna"),
-    *(
-        "标签",
-        "标签名",
-        "变量",
-        "变量名",
-        "位号",
-        "点名",
-        "测点",
-        "信号",
-        "信号名",
-        "通道",
-        "標籤",
-        "タグ",
-        "タグ名",
-        "信号名称",
-        "태그",
-    ),
-)
 _TYPE = "datatype"
-_NUMBER_AT_END = re.compile(r"\d{1,2}$")
-_FEWEST = 2  # values of a row that come in pairs with their tags
 _ROWS = 2000  # below the header, by which the times are known
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
     """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
-    is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
-    where there is none; zero_good: whether its code 0 is, None where the codes do not tell; annotated: lines that begin
-    with '#' are none of it; unread: names of columns of numbers that differ and are none of these; said: what their
-    header says of the times; more: the same of further values of each row, `Kanal;Wert;Kanal;Wert`."""
+    is measured, together; typed: further columns of the value, of which a row fills one; constant: (column, cell) of
+    those that name the same in all that was looked at; status: None where there is none; zero_good: whether its code 0
+    is, None where the codes do not tell; annotated: lines that begin with '#' are none of it; unread: names of columns
+    of numbers that differ and are none of these; said: what their header says of the times; more: the same of further
+    values of each row, `Kanal;Wert;Kanal;Wert`."""
 
     delimiter: str
     row: int
@@ -68,6 +41,7 @@ class Layout:
     tags: tuple[int, ...]
     known: Mapping[tuple[str, ...], str]
     value: int
+    typed: tuple[int, ...]
     status: int | None
     form: TimeFormat
     zero_good: bool | None
@@ -81,13 +55,25 @@ class Layout:
     def wanted(self) -> set[int]:
         """The columns that say something of an event."""
         maybe = {k for k in (self.status, self.unit) if k is not None}
-        return {*self.times, *self.tags, self.value, *maybe}.union(*(each.wanted for each in self.more))
+        return {*self.times, *self.tags, self.value, *self.typed, *maybe}.union(*(each.wanted for each in self.more))
+
+    @property
+    def status_name(self) -> str:
+        """What the column of the status is called, bare."""
+        return "" if self.status is None else bare(fields(self.header, self.delimiter)[self.status])
 
     @property
     def grid(self) -> Grid:
         """All wanted cells as text: what a value is, its tag decides."""
         kinds = tuple("str" if k in self.wanted else None for k in range(self.width))
         return Grid(self.delimiter, ".", kinds, quoted=True, exact=True)
+
+    def valued(self, columns: dict[int, list[str | None]]) -> list[str | None]:
+        """The value of each row: of typed columns the one that it fills."""
+        if not self.typed:
+            return columns[self.value]
+        cells = (columns[k] for k in (self.value, *self.typed))
+        return [next((c for c in each if c and not is_empty(c)), each[0]) for each in zip(*cells, strict=True)]
 
     def named(self, columns: dict[int, list[str | None]], n: int) -> list[str]:
         """The tag of each of n rows, by the cells of each wanted column."""
@@ -134,14 +120,15 @@ def find_layout(
 
 @dataclass(frozen=True, slots=True)
 class _Header:
-    """Which columns a header names. raw, names: its cells, as they stand and `bare`; pairs: of tag and value, of a row
-    that holds several; influx: it is one of InfluxDB."""
+    """Which columns a header names. raw, names: its cells, as they stand and `bare`; typed: further ones of the value,
+    of other types; pairs: of tag and value, of a row that holds several; influx: it is one of InfluxDB."""
 
     raw: Sequence[str]
     names: Sequence[str]
     said: Times
     tag: int | None
     value: int
+    typed: tuple[int, ...]
     status: int | None
     pairs: Sequence[tuple[int, int]]
     influx: bool
@@ -161,18 +148,19 @@ def _header(raw: Sequence[str], below: Sequence[Sequence[str]]) -> _Header | Non
     tells what the value is of."""
     names = [bare(c) for c in raw]
     pairs = value_pairs(names, below)
-    value = pairs[0][1] if pairs else next((names.index(n) for n in _values(names) if n in names), None)
-    if value is None:
+    values = (pairs[0][1],) if pairs else value_columns(names)
+    if not values:
         return None
-    tag = pairs[0][0] if pairs else next((names.index(n) for n in _TAGS if n in names), None)
+    value, typed = values[0], values[1:]
+    tag = pairs[0][0] if pairs else next((names.index(n) for n in TAGS if n in names), None)
     if {"_time", "_value"} <= set(raw):
-        return _Header(raw, names, Times((raw.index("_time"),), "_time", None), tag, value, None, pairs, True)
+        return _Header(raw, names, Times((raw.index("_time"),), "_time", None), tag, value, (), None, pairs, True)
     status = _status(names)
     if tag is None and ("sourcetimestamp" not in names or status is None):
         return None
-    others = {k for k in (tag, value, status, *(k for pair in pairs for k in pair)) if k is not None}
+    others = {k for k in (tag, *values, status, *(k for pair in pairs for k in pair)) if k is not None}
     said = time_columns(raw, names, below, others)
-    return None if said is None else _Header(raw, names, said, tag, value, status, pairs, False)
+    return None if said is None else _Header(raw, names, said, tag, value, typed, status, pairs, False)
 
 
 def _headed_by(
@@ -191,7 +179,14 @@ def _headed_by(
     if (status := header.status) is not None:
         codes = (cells[status] for cells in (*body, *header.whole(fields(text, delimiter) for text in later)))
         zero = zero_is_good(codes, header.names[status])
-    taken = {*header.times, header.value, status, header.tag, *(k for pair in header.pairs for k in pair)}
+    taken = {
+        *header.times,
+        header.value,
+        *header.typed,
+        status,
+        header.tag,
+        *(k for pair in header.pairs for k in pair),
+    }
     units = [
         k for k, c in enumerate(header.raw) if k not in taken and holds_units(c, (clean(cells[k]) for cells in body))
     ]
@@ -209,6 +204,7 @@ def _headed_by(
         tags=series.tags,
         known=series.known,
         value=header.value,
+        typed=header.typed,
         status=status,
         form=form,
         zero_good=zero,
@@ -236,7 +232,14 @@ def _series(header: _Header, rows: Iterable[Sequence[str]], form: TimeFormat, ot
         return Series((), {})
     whole = header.whole(rows)
     of_type = [k for k, n in enumerate(header.names) if n == _TYPE]
-    used = {*header.times, header.value, *(k for pair in header.pairs[1:] for k in pair), *others, *of_type}
+    used = {
+        *header.times,
+        header.value,
+        *header.typed,
+        *(k for pair in header.pairs[1:] for k in pair),
+        *others,
+        *of_type,
+    }
     t_ns = timestamp.parse([_time(cells, header.times) for cells in whole], form)
     return series_of(header.names, whole, t_ns, header.tag, used)
 
@@ -258,31 +261,10 @@ def _more(
     )
 
 
-def value_pairs(names: Sequence[str], rows: Sequence[Sequence[str]]) -> list[tuple[int, int]]:
-    """(column of the tag, column of its value) of a row that holds several of them, by names that come again, numbered
-    or not: 'kanal;wert;kanal;wert'. names: bare; rows: below them. Nothing where a row holds one."""
-    stems = [_NUMBER_AT_END.sub("", n) for n in names]
-    tags = [k for k, n in enumerate(stems) if n in _TAGS]
-    values = [k for k, n in enumerate(stems) if n in _VALUES]
-    if len(tags) != len(values) or len(tags) < _FEWEST or len({stems[k] for k in (*tags, *values)}) != _FEWEST:
-        return []
-    order = [k for pair in zip(tags, values, strict=True) for k in pair]
-    turned = [k for pair in zip(values, tags, strict=True) for k in pair]
-    if sorted(order) not in (order, turned):
-        return []
-    words = [clean(cells[k]) for cells in rows if len(cells) == len(names) for k in tags]
-    return [] if not words or any(map(is_number, words)) else list(zip(tags, values, strict=True))
-
-
 def _status(names: Sequence[str]) -> int | None:
     """The column that says most surely how good a value is, by bare names."""
     told = [(sure, k) for k, name in enumerate(names) if (sure := tells_quality(name)) is not None]
     return min(told)[1] if told else None
-
-
-def _values(names: Sequence[str]) -> Sequence[str]:
-    """What a column of values is called: Home Assistant has states of entities, which elsewhere are the machine's."""
-    return (*_VALUES, "state") if "entityid" in names else _VALUES
 
 
 def _time(cells: Sequence[str], times: Sequence[int]) -> str:

@@ -59,6 +59,7 @@ def _events(
     """What whole lines in UTF-8 report, in order; whether the table ends in them. line: the number of the first,
     0-based in the file; units: of tags, in which their values are given."""
     rows, part = parse(data, line, layout.grid), f"{name} line"
+    status_name = layout.status_name
     columns = {k: rows.columns[k].values.tolist() for k in layout.wanted}
     stamps = [columns[k] for k in layout.times]
     times = [next((text for text in each if text), "") for each in zip(*stamps, strict=True)]
@@ -77,7 +78,7 @@ def _events(
                     yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
                 continue
             flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
-            if status is not None and not is_good(status, bool(layout.zero_good)):
+            if status is not None and not is_good(status, bool(layout.zero_good), status_name):
                 flag |= BAD
             if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
                 value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
@@ -94,7 +95,7 @@ def _parts(layout: Layout, columns: dict[int, list[str | None]], n: int) -> Iter
     """(tag, value, status, unit) of each of n rows."""
     statuses = [None] * n if layout.status is None else columns[layout.status]
     written = [""] * n if layout.unit is None else columns[layout.unit]
-    return zip(layout.named(columns, n), columns[layout.value], statuses, written, strict=True)
+    return zip(layout.named(columns, n), layout.valued(columns), statuses, written, strict=True)
 
 
 def _not_rows(

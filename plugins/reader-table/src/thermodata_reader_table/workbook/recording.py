@@ -6,18 +6,17 @@ signals are `sheet/name`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from thermodata.errors import FormatError, QuestionError, ThermodataError
+from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
-from thermodata.reader.text.page.layout import Layout, find_layout
-from thermodata.reader.text.page.on_its_side import refuse_sideways
+from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.times.zone import NAT
@@ -26,6 +25,7 @@ from thermodata_reader_table.workbook.book import Book, book_of
 from thermodata_reader_table.workbook.related import with_related
 from thermodata_reader_table.workbook.series import taken_apart
 from thermodata_reader_table.workbook.sheet import Stream, Table
+from thermodata_reader_table.workbook.sheets import is_small, layouts_of, left_out, of_another_clock
 
 _BLOCK_VALUES = 1_000_000
 
@@ -44,18 +44,18 @@ class Read:
 def read(path: Path, source: Source) -> Read:
     """FormatError where no sheet is a table (the reason of the first), or some have dates and others not."""
     book = book_of(path, source)
-    tables, notes = _layouts(path, source, book)
+    tables, notes = layouts_of(book.sheets, source, path.name)
     several = len(tables) > 1
     if several:
         notes.append(
             f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
             "declare table: {sheet: ...}: " + ", ".join(tables)
         )
-    read_sheets, found = _streams(path, source, book, tables, start_above=True)
+    read_sheets, found = _streams(path, source, book, tables, notes, start_above=True)
     begun = [sheet for sheet, table in read_sheets.items() if table.begun]
     if begun and len({s.times.absolute for streams in found.values() for s in streams}) > 1:
         notes.append(f"a start stands above the rows of sheet '{begun[0]}' and of no other, {NOT_TAKEN}")
-        read_sheets, found = _streams(path, source, book, tables, start_above=False)
+        read_sheets, found = _streams(path, source, book, tables, notes, start_above=False)
     for sheet, table in read_sheets.items():
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
     losses = [loss for table in read_sheets.values() for loss in table.losses]
@@ -72,7 +72,7 @@ def read(path: Path, source: Source) -> Read:
         for k, stream in enumerate(found[sheet]):
             found[sheet][k], told = with_related(stream, source.table, table.where, told_by_cells=plain, beyond=names)
             notes += told.notes
-    for sheet in _of_another_clock(found):
+    for sheet in of_another_clock(found):
         notes.append(f"sheet '{sheet}' is not read: its times are of another kind than those of the other sheets")
         del found[sheet]
     streams = [s for made in found.values() for s in made]
@@ -88,63 +88,26 @@ def read(path: Path, source: Source) -> Read:
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
 
 
-def _layouts(path: Path, source: Source, book: Book) -> tuple[dict[str, Layout], list[str]]:
-    """(how each sheet that is a table lies, notes on the others); the reason of the first where none is, and what one
-    leaves open."""
-    tables: dict[str, Layout] = {}
-    refused: dict[str, ThermodataError] = {}
-    for sheet, cells in book.sheets.items():
-        where = f"{path.name} sheet '{sheet}'"
-        try:
-            if not (source.table or {}).get("time"):
-                refuse_sideways(cells.rows, where)
-            tables[sheet] = find_layout(cells.rows[:500], source.table, where)
-        except ThermodataError as error:
-            refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
-    # a list of numbers may be no recording; a time without its unit is one
-    asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
-    if asked or not tables:
-        raise next(iter(asked or refused.values()))
-    return tables, [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
-
-
 def _streams(
-    path: Path, source: Source, book: Book, layouts: Mapping[str, Layout], start_above: bool
+    path: Path, source: Source, book: Book, layouts: Mapping[str, Layout], notes: list[str], start_above: bool
 ) -> tuple[dict[str, Table], dict[str, list[Stream]]]:
-    """(the table, the streams) of each sheet. start_above: whether a start that stands above its rows counts."""
+    """(the table, the streams) of each sheet, without summaries in which the declared time reads nothing. start_above:
+    whether a start that stands above its rows counts; notes: take what is said of these."""
     tables: dict[str, Table] = {}
     found: dict[str, list[Stream]] = {}
     several = len(layouts) > 1
     for sheet, layout in layouts.items():
         where = f"{path.name} sheet '{sheet}'" if several else path.name
-        tables[sheet] = Table(book.sheets[sheet], layout, where, source, start_above)
-        found[sheet] = list(tables[sheet].streams(sheet if several else None))
+        table = Table(book.sheets[sheet], layout, where, source, start_above)
+        try:
+            found[sheet] = list(table.streams(sheet if several else None))
+        except FormatError as error:
+            if not (source.table or {}).get("time") or not is_small(sheet, layouts, book.sheets):
+                raise
+            notes.append(left_out(sheet, error))
+        else:
+            tables[sheet] = table
     return tables, found
-
-
-def _naming(sheet: str, error: ThermodataError) -> ThermodataError:
-    """A question of a sheet among several says which one leaves it."""
-    if not isinstance(error, QuestionError):
-        return error
-    return QuestionError(
-        error.what,
-        where=error.where,
-        expected=error.expected,
-        got=error.got,
-        hint=error.hint,
-        ask=f"sheet '{sheet}': {error.ask}",
-        declare=error.declare,
-        meanwhile=error.meanwhile,
-        times=error.times,
-    )
-
-
-def _of_another_clock(found: Mapping[str, Sequence[Stream]]) -> list[str]:
-    """The few sheets with dates beside many that count from a start, or the other way: a list of tests with their days
-    is no recording. None where they are no small minority: then nobody can tell which are meant."""
-    kinds = {sheet: {s.times.absolute for s in streams if s.times.t_ns.size} for sheet, streams in found.items()}
-    few, many = sorted(([s for s, kind in kinds.items() if kind == {dated}] for dated in (True, False)), key=len)
-    return few if len(few) + len(many) == len(kinds) and len(many) >= max(3, 2 * len(few)) else []
 
 
 def describe(path: Path, source: Source) -> Recording:
