@@ -7,8 +7,9 @@ import pytest
 
 from thermodata.calibration.channel import calibrate
 from thermodata.calibration.static import evaluate_scale
-from thermodata.draft.writing.fill_in import filled_in, questions
-from thermodata.errors import SpecError, UsageError
+from thermodata.draft.writing.fill_in import filled_in
+from thermodata.draft.writing.questions import only_in_file, questions
+from thermodata.errors import FormatError, SpecError, UsageError
 from thermodata.schema.files.load import parse_campaign
 
 TEXT = """\
@@ -166,3 +167,73 @@ def test_a_sign_turns_a_displacement_in_any_length(unit: str, reading: float, um
     values, _ = calibrate(np.array([reading]), channel=channel, signal_unit=None, scaling=None, calibrations=[turned])
     assert values[0] == pytest.approx(um)
     assert all(c["passed"] for c in turned.checks)
+
+
+SEVERAL = TEXT.replace(
+    '  nc: {reader: cnc, files: "raw/{test}.csv"}   # ? timezone? local times\n',
+    "  nc: {reader: table, files: hall.txt, table: {time: {format: unknown}}}   # ? format of the dates: dmy or mdy? "
+    "04/05/2026 may be either; timezone? it logs local times, e.g. timezone: Europe/Prague; one log for many tests?\n",
+)
+
+
+def test_an_answer_ticks_off_its_own_question_and_no_other() -> None:
+    after = filled_in(SEVERAL, {"sources.nc.timezone": "Europe/Prague"})
+    line = after.splitlines()[6]
+    assert "{time: {format: unknown}}, timezone: Europe/Prague}   # ? format of the dates: dmy or mdy? 04/05" in line
+    assert line.endswith(
+        "one log for many tests?; answered: timezone? it logs local times, e.g. timezone: Europe/Prague"
+    )
+    asked = {q.name: q for q in questions(after)}
+    assert not asked["sources.nc.timezone"].open
+    order = asked["sources.nc.table.time.format"]
+    assert (order.open, order.value, order.choices) == (True, "", ("dmy", "mdy", "ymd"))
+    assert order.hint == "format of the dates: dmy or mdy? 04/05/2026 may be either"
+    both = filled_in(after, {"sources.nc.table.time.format": "dmy"}).splitlines()[6]
+    assert "table: {time: {format: dmy}}" in both
+    assert "# ? one log for many tests?; answered: timezone? it logs" in both
+
+
+def test_what_no_field_answers_is_told_with_its_line() -> None:
+    assert [(q.line, q.asks) for q in only_in_file(SEVERAL)] == [(7, "one log for many tests?")]
+    assert only_in_file(TEXT) == []
+    twice = TEXT.replace("kind? e.g. spindle", "kind? e.g. spindle; start: as list.csv says?; a door was open?")
+    assert {q.name for q in questions(twice)} - {q.name for q in questions(TEXT)} == {"tests.0.start"}
+    assert [q.asks for q in only_in_file(twice)] == ["a door was open?"]
+
+
+def test_units_are_answered_and_then_the_sign_is_asked() -> None:
+    asks = "# ? unit: um, mm, m or V? (values -36 to 1.2), calibration? a jump test, or kind: scale (name)"
+    line = "  Along: {source: nc, signal: dz, quantity: displacement, axis: Z, at: tcp}"
+    text = TEXT.replace("  dZ: {", f"{line}   {asks}\n  dZ: {{")
+    asked = {q.name: q for q in questions(text)}
+    assert asked["channels.Along.unit"].choices == ("um", "mm", "m", "V")
+    assert "channels.Along.sign" not in asked
+    after = filled_in(text, {"channels.Along.unit": "mm"})
+    assert parse_campaign(after).channels["Along"].unit == "mm"
+    assert "channels.Along.unit" in {q.name for q in questions(after)}, "it can be changed"
+    assert {q.name for q in questions(after) if q.open} >= {"channels.Along.sign"}
+    turned = filled_in(after, {"channels.Along.sign": "+Z, gap"})
+    assert "# answered: unit: um, mm" in turned
+    assert only_in_file(turned) == []
+    assert "channels.Along.sign" not in {q.name for q in questions(filled_in(text, {"channels.Along.unit": "V"}))}
+
+
+def test_the_unit_of_a_time_is_answered_and_one_that_is_none_refused() -> None:
+    text = TEXT.replace(
+        '{reader: cnc, files: "raw/{test}.csv"}   # ? timezone? local times',
+        '{reader: table, files: "raw/{test}.csv", table: {time: {column: t, unit: unknown}}}   # ? unit of the time: '
+        "s, min, h or ms? 't' runs from 0 in steps of 1",
+    )
+    assert {q.name: q.kind for q in questions(text)}["sources.nc.table.time.unit"] == "time"
+    assert "{column: t, unit: min}}}   # answered: unit" in filled_in(text, {"sources.nc.table.time.unit": "min"})
+    with pytest.raises(FormatError, match="unknown unit of time"):
+        filled_in(text, {"sources.nc.table.time.unit": "parsecs"})
+
+
+def test_a_guess_that_is_right_is_ticked_off_as_it_stands() -> None:
+    text = TEXT.replace("degC}   # ? at: where on the machine?", "degC, at: rotary.b}   # ? at: rotary.b or table?")
+    asked = {q.name: q for q in questions(text)}["channels.T06.at"]
+    assert (asked.open, asked.asks, asked.value) == (True, True, "rotary.b")
+    after = filled_in(text, {"channels.T06.at": "rotary.b"})
+    assert "at: rotary.b}   # answered: at: rotary.b or table?" in after
+    assert not {q.name: q for q in questions(after)}["channels.T06.at"].open

@@ -8,8 +8,9 @@ import pytest
 
 from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.writing.baseline import model_text_of
-from thermodata.draft.writing.fill_in import filled_in, questions
+from thermodata.draft.writing.fill_in import filled_in
 from thermodata.draft.writing.put import EVERY, put
+from thermodata.draft.writing.questions import questions
 from thermodata.errors import UsageError
 from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 

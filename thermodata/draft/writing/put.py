@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from thermodata.draft.writing.fill_in import set_in_line
+from thermodata.draft.writing.in_line import set_in_line
 from thermodata.draft.writing.write import flow, scalar
 from thermodata.errors import UsageError
 from thermodata.schema.files.load import parse_campaign

@@ -10,7 +10,6 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES, linear_conversion
 
 WHAT: tuple[str, ...] = tuple(f"{q} [{CANONICAL_UNIT[q]}]" for q in QUANTITIES if q != "label")
-GUESSED = "# ? quantity:"
 _LINE = re.compile(r"^  # (?P<name>[^:#]+): (?P<body>\{.*\bquantity: \?.*\})\s+# \? (?P<hint>.*)$")
 _ANSWER = re.compile(r"^(?P<quantity>[a-z_ ]+?)\s*\[(?P<unit>[^\[\]{},]*)\]$")
 

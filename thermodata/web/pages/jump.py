@@ -8,7 +8,7 @@ from starlette.responses import Response
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, Panel, Series, Span
 from thermodata.draft.probes.jump_seen import JumpSeen, jump_seen
-from thermodata.draft.writing.fill_in import questions
+from thermodata.draft.writing.questions import questions
 from thermodata.errors import UsageError
 from thermodata.schema.words.sentences import counted
 from thermodata.web.render import desk_of, page

@@ -13,8 +13,9 @@ from starlette.responses import Response
 from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.probes.which_way import ways
 from thermodata.draft.writing.baseline import responses_of
-from thermodata.draft.writing.fill_in import Question, filled_in, questions
+from thermodata.draft.writing.fill_in import filled_in
 from thermodata.draft.writing.own_id import taken_by_another
+from thermodata.draft.writing.questions import Question, questions
 from thermodata.draft.writing.unread import WHAT
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.files.campaign import Channel

@@ -1,0 +1,73 @@
+"""What a line of a campaign file asks behind its '# ?': one question by one, and which of them are answered."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.draft.writing.in_line import parted
+
+MARK = "# ? "
+ANSWERED = "# answered: "
+_DONE = "answered: "
+# how the questions begin that a draft writes behind another one
+_HEADS = (
+    r"a difference, not|a limit, or|a set value, not|at: |axis\?|axis: \S+ by|calibration\?|clock: \{|format of the |"
+    r"kind[?:] |names: |one log for many tests\?|period: |quantity: |quantity and unit\?|role: |stands: |start: |"
+    r"start_state: |time: |timezone\?|unit of the time|unit: |what does it measure\?|which way does it count\?"
+)
+# "facing: ?, increases_with: ?" in the words of a question ends none
+_NEXT = re.compile(rf"(?<=\S\?)[,;] |[,;] (?={_DONE}|{_HEADS})")
+# key of an answer -> how the questions begin that it answers; any of the line where it stands in none
+_OF = {
+    "at": "at:",
+    "axis": "axis[?:]",
+    "format": "format",
+    "kind": "kind",
+    "period": "period",
+    "quantity": "quantity|unit:",
+    "role": "role",
+    "sign": r"which way does it count|calibration\?",
+    "start": "start:",
+    "start_state": "start_state:",
+    "timezone": "timezone",
+    "unit": "unit",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class AskedInLine:
+    """open, answered: the questions of a line in its own words."""
+
+    open: tuple[str, ...] = ()
+    answered: tuple[str, ...] = ()
+
+
+def asked_in(line: str) -> AskedInLine:
+    """What the comment of a line asks."""
+    comment = parted(line)[1]
+    if comment.startswith(ANSWERED):
+        return AskedInLine((), tuple(p.removeprefix(_DONE) for p in _NEXT.split(comment.removeprefix(ANSWERED))))
+    if not comment.startswith(MARK):
+        return AskedInLine()
+    parts = _NEXT.split(comment.removeprefix(MARK))
+    done = tuple(p.removeprefix(_DONE) for p in parts if p.startswith(_DONE))
+    return AskedInLine(tuple(p for p in parts if not p.startswith(_DONE)), done)
+
+
+def answers(key: str, question: str) -> bool:
+    """Whether a value for a key, as the last name of where it stands, answers a question of its line."""
+    return key not in _OF or re.match(_OF[key], question) is not None
+
+
+def ticked(line: str, keys: Sequence[str]) -> str:
+    """The line with the questions ticked off that values for these keys answer; what it asks beside them stays."""
+    asked = asked_in(line)
+    if not any(answers(k, q) for q in asked.open for k in keys):
+        return line
+    still = [q for q in asked.open if not any(answers(k, q) for k in keys)]
+    done = [*asked.answered, *(q for q in asked.open if q not in still)]
+    if still:
+        return parted(line)[0] + MARK + "; ".join([*still, *(f"{_DONE}{q}" for q in done)])
+    return parted(line)[0] + ANSWERED + "; ".join(done)
