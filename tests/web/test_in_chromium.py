@@ -323,6 +323,24 @@ def test_a_jump_test_is_drawn_in_the_form(served: Served) -> None:
     assert served.page.complaints() == []
 
 
+def test_what_is_written_renews_the_questions_above(served: Served) -> None:
+    path = served.lab / "campaign.yaml"
+    path.write_text(path.read_text().replace("role: verification", "role: none", 1))
+    served.go("/start")
+    assert served.page.js("document.getElementById('asks').textContent") == "1 question that only you can answer"
+    field = (
+        "[...document.querySelectorAll('#answers select')].find(s => s.name.endsWith('.role') && s.value === 'none')"
+    )
+    served.page.js(f"{field}.value = 'verification'")
+    served.press("#answers button[type=submit]")
+    served.page.wait("document.querySelector('#diff .diff')?.textContent.includes('verification')")
+    served.press("#diff button[type=submit]")
+    served.page.wait("document.getElementById('asks').textContent === 'Every question is answered'")
+    assert served.page.js("document.querySelectorAll('#asks, #answers, #model').length") == 3
+    assert served.page.js(f"{field} === undefined"), "the form as well"
+    assert served.page.complaints() == []
+
+
 def test_a_dragged_stretch_is_told(read: Served) -> None:
     read.go("/test?campaign=small&test=heat1")
     read.page.wait("document.querySelector('#plot canvas')")

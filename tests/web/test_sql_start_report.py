@@ -84,7 +84,13 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     shown = client.post("/start/preview", form).text
     assert "+  id: 138" in shown.replace("&#34;", '"').replace('"138"', "138")
     assert Path(path).read_text() == before  # shown, not written
-    assert "is written" in client.post("/start/write", form).text
+    many = int(re.search(r'<h1 id="asks">(\d+) question', text)[1])
+    written = client.post("/start/write", form).text
+    assert "is written" in written
+    fewer = int(re.search(r'<h1 id="asks" hx-swap-oob="true">(\d+) question', written)[1])
+    assert fewer == many - 1 - len(roles), "the title follows"
+    assert '<form id="answers" hx-swap-oob="true"' in written
+    assert '<section class="card" id="model" hx-swap-oob="true"' in written
     assert "role: calibration" in Path(path).read_text()
     assert (tmp_path / "new" / "campaign.1.yaml").read_text() == before
     text, onward = finished(client, client.post("/task/ingest", {"campaign": path}).text)
@@ -96,6 +102,22 @@ def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) ->
     assert listed.status == 200
     assert "Fit a first model" in listed.text
     assert Store(tmp_path / "new" / "thermodata.store").generation > 0
+
+
+def test_what_has_no_field_is_shown_with_its_line_and_counted(tmp_path: Path) -> None:
+    (tmp_path / "hall.txt").write_text("a")
+    (tmp_path / "campaign.yaml").write_text(
+        "schema: thermodata/campaign/1\nid: hall\nmachine:\n  id: M1\nsources:\n"
+        "  log: {reader: table, files: hall.txt, table: {time: {format: unknown}}}   # ? format of the dates: dmy or "
+        "mdy? 04/05/2026 may be either; one log for many tests?\n"
+        "channels:\n  T: {source: log, signal: T, quantity: temperature, unit: degC, at: axis.b}   # ? at: axis.b?\n"
+        "tests:\n  - {id: day1, kind: other, role: calibration}\n"
+    )
+    text = client_of(tmp_path, write=True)[0].get("/start").text
+    assert '<h1 id="asks">3 questions' in text
+    assert "<li>line 6: one log for many tests?</li>" in text
+    assert 'name="answer.sources.log.table.time.format"' in text
+    assert '<input type="checkbox" name="so.channels.T.at"' in text
 
 
 def test_a_draft_that_got_another_id_than_its_folder_says_so(made_lab: Path, tmp_path: Path) -> None:

@@ -11,12 +11,10 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.draft.make import first_model, modelled, write_answered
-from thermodata.draft.probes.which_way import ways
 from thermodata.draft.writing.baseline import responses_of
 from thermodata.draft.writing.fill_in import filled_in
 from thermodata.draft.writing.own_id import taken_by_another
-from thermodata.draft.writing.questions import Question, questions
-from thermodata.draft.writing.unread import WHAT
+from thermodata.draft.writing.questions import questions
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.files.campaign import Channel
 from thermodata.schema.files.load import parse_campaign
@@ -24,46 +22,11 @@ from thermodata.store.catalogue.campaign_paths import campaign_paths
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
+from thermodata.web.pages.start_form import answered, form_state
 from thermodata.web.render import desk_of, page
 
-_ANSWER, _STEP = "answer.", "step."
 _MOST_BYTES = 4 << 20
-# (title, which questions, what they decide)
-GROUPS = (
-    ("The machine and its clocks", ("text", "zone"), "A log in local time needs its zone, or nothing lines up."),
-    ("Jump tests", ("moves",), "The commanded moves, signed, in machine coordinates: 100 um, 50 um, -200 um"),
-    (
-        "What was logged",
-        ("what",),
-        "A signal whose quantity nobody says is left out. The unit stands in brackets: feed [m/min].",
-    ),
-    (
-        "Where the sensors are",
-        ("axis", "way", "place"),
-        "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. "
-        "The axis of a displacement says which screw moves it, and the way that its probe looks gives its sign: where "
-        "the target on the tool side goes away along +Z, a probe that looks along +Z sees its gap grow.",
-    ),
-    (
-        "The tests",
-        ("kind", "start", "role"),
-        "What heats one part alone is fitted (calibration); a working day checks it (verification); one that nobody "
-        "has looked at is kept for the last word (locked). One that began before the machine had cooled starts warm.",
-    ),
-)
-# role, start of a test, or way of a probe -> what it means
-WORDS = {
-    "calibration": "calibration: fitted",
-    "verification": "verification: checked",
-    "locked": "locked: kept for the last word",
-    "none": "none: kept only",
-    "balance": "balance: it was at rest",
-    "warm": "warm: it had not cooled",
-    **{way: f"looks along {way.replace(', ', ', reads more with the ')}" for way in ways(None)},
-}
 _MOST_MODELS = 5
-# of the machine, for the schematic: the first parts of places that are drawn
-BODIES = ("column", "headstock", "spindle", "ram", "axis", "table", "bed", "hall", "coolant")
 
 
 def show(request: Request) -> Response:
@@ -72,24 +35,17 @@ def show(request: Request) -> Response:
     folder = desk.folders[0]
     path = desk.inside(request.query_params.get("file") or "campaign.yaml")
     text = campaign_text(path) if path.is_file() else None
-    asked = questions(text) if text is not None else []
     return page(
         request,
         "start.html.j2",
         title="Start",
         command=command(desk.store_path, "init", folder) if text is None else command(desk.store_path, "ingest", path),
         folder=folder,
-        path=path,
         there=text is not None,
         stored=[] if text is not None or not desk.has_store else _stored(desk),
         id_taken=None if text is None else _id_taken(desk, path, text),
-        groups=[(title, _open_first(asked, kinds), why) for title, kinds, why in GROUPS],
-        open_ones=sum(q.open for q in asked),
-        bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
+        **form_state(path, text),
         **_first_model(desk, path, text),
-        words=WORDS,
-        what=WHAT,
-        answer=_ANSWER,
     )
 
 
@@ -115,12 +71,6 @@ def _id_taken(desk: Desk, path: Path, text: str) -> tuple[str, str, str] | None:
     return None
 
 
-def _open_first(asked: list[Question], kinds: tuple[str, ...]) -> list[Question]:
-    """Of sensors, what nobody has answered before what was guessed; all else in the order of the file."""
-    own = [q for q in asked if q.kind in kinds]
-    return sorted(own, key=lambda q: not q.open) if "place" in kinds else own
-
-
 async def model(request: Request) -> Response:
     """POST /start/model: drafts model.yaml for a displacement of the user's choice."""
     desk, form = desk_of(request), await form_of(request)
@@ -136,8 +86,8 @@ async def model(request: Request) -> Response:
 
 
 def _first_model(desk: Desk, path: Path, text: str | None) -> dict[str, Any]:
-    """What the section of the first model shows. A campaign file that does not load offers no displacement: what is
-    wrong with it is said where its questions are answered."""
+    """What the section of the first model shows; oob: whether it takes the place of the one that is there. A campaign
+    file that does not load offers no displacement: what is wrong with it is said where its questions are answered."""
     responses: list[tuple[str, str]] = []
     chosen = None
     with contextlib.suppress(SpecError):
@@ -151,6 +101,7 @@ def _first_model(desk: Desk, path: Path, text: str | None) -> dict[str, Any]:
         "modelled": chosen,
         "model_command": command(desk.store_path, "first-model", path, "--response", chosen or "CHANNEL"),
         "told": "",
+        "oob": False,
     }
 
 
@@ -170,7 +121,7 @@ async def preview(request: Request) -> Response:
     desk, form = desk_of(request), await form_of(request)
     path = desk.inside(form.get("file", ""))
     before = campaign_text(path)
-    after = filled_in(before, _answers(form, questions(before)))
+    after = filled_in(before, answered(form, questions(before)))
     return changes(request, path, before, after, form, "/start/write")
 
 
@@ -179,8 +130,11 @@ async def write(request: Request) -> Response:
     desk, form = desk_of(request), await form_of(request)
     path = desk.inside(form.get("file", ""))
     before = campaign_text(path)
-    after = filled_in(before, _answers(form, questions(before)))
-    return written(request, path, before, after)
+    after = filled_in(before, answered(form, questions(before)))
+    kept, followed = _kept(path, before, after)
+    # what stands above and below follows: the questions, how many there are, and the model
+    state = {**form_state(path, after), **_first_model(desk, path, after), "oob": True}
+    return page(request, "start_renewed.html.j2", title="", command="", kept=kept, followed=followed, **state)
 
 
 def changes(request: Request, path: Path, before: str, after: str, form: dict[str, str], onward: str) -> Response:
@@ -201,42 +155,13 @@ def changes(request: Request, path: Path, before: str, after: str, form: dict[st
 
 def written(request: Request, path: Path, before: str, after: str) -> Response:
     """Writes it, and says what comes next."""
-    kept, followed = write_answered(path, after) if after != before else (None, False)
+    kept, followed = _kept(path, before, after)
     return page(request, "start_written.html.j2", title="", command="", path=path, kept=kept, followed=followed)
 
 
-def _answers(form: dict[str, str], asked: list[Question]) -> dict[str, str]:
-    """Only what differs from what stands there; a name that is no question is refused by `filled_in`."""
-    stands = {q.name: q.value for q in asked}
-    given = {k.removeprefix(_ANSWER): v.strip() for k, v in form.items() if k.startswith(_ANSWER)}
-    given |= _moves(form)
-    return {name: value for name, value in given.items() if value != stands.get(name)}
-
-
-def _moves(form: dict[str, str]) -> dict[str, str]:
-    """The moves of each jump test from the fields of its steps; UsageError where only some are filled in."""
-    steps: dict[str, dict[int, str]] = {}
-    for field, value in form.items():
-        if field.startswith(_STEP):
-            name, _, number = field.removeprefix(_STEP).rpartition(".")
-            if not number.isdecimal() or "," in value:
-                raise UsageError("a step has one move", where=field, expected="such as 100 um", got=value)
-            steps.setdefault(name, {})[int(number)] = value.strip()
-    moves = {}
-    for name, each in steps.items():
-        ordered = [each[k] for k in sorted(each)]
-        if not any(ordered):
-            continue
-        if not all(ordered):
-            lacking = [str(k + 1) for k in sorted(each) if not each[k]]
-            raise UsageError(
-                "a jump test needs the move of every step",
-                where=name,
-                got=f"none at step {', '.join(lacking)}",
-                hint="give each the way from where the axis stood, such as 100 um or -100 um",
-            )
-        moves[name] = ", ".join(ordered)
-    return moves
+def _kept(path: Path, before: str, after: str) -> tuple[Path | None, bool]:
+    """(where the file before is, whether the first model followed)."""
+    return write_answered(path, after) if after != before else (None, False)
 
 
 def campaign_text(path: Path) -> str:
