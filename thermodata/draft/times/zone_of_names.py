@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.tables.zone_named import named_in
 
-EXAMPLE = "e.g. timezone: Europe/Prague"
+EXAMPLE = "e.g. timezone: Europe/Prague, or UTC+1 of a clock on winter time all year"
 
 
 def named_zone(head: str | None, paths: Sequence[PurePosixPath]) -> str:

@@ -32,7 +32,8 @@ def zone(name: str) -> ZoneInfo:
             f"no time zone '{name}'",
             expected="an IANA name such as Europe/Prague",
             got=name,
-            hint="a city of the zone, Continent/City; 'UTC' where the clock has no summer time",
+            hint="a city of the zone, Continent/City; where the clock keeps one offset all year Etc/GMT-1, which is an "
+            "hour ahead of UTC (its sign is turned); 'UTC' where it shows UTC",
         ) from None
 
 

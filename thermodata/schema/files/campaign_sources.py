@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from thermodata.schema.strict.declared import Moment, Paths, Seconds, Strict
+from thermodata.schema.words.zone_names import zone_of_offset
 
 
 class TimeColumn(Strict):
@@ -114,7 +115,7 @@ class ClockEvent(Strict):
 class Clock(Strict):
     """`sources.*.clock`: how this source's clock relates to the others'. Refused where the evidence is thin.
 
-    offset: added to the source's times [s], with a unit: -3.2 s
+    offset: added to the source's times [s], with a unit: -3.2 s of a clock that runs 3.2 s ahead of the others
     drift_ppm: how much faster the clock runs [1e-6]
     align_to: the source whose clock is right; offset and drift are estimated
     by: quantities that both logged
@@ -136,7 +137,8 @@ class SourceSpec(Strict):
 
     reader: name of an installed reader: crio, cnc, mcap, table or another
     files: path below this file, a pattern with {test}, or a list
-    timezone: IANA name of the zone of local times: Europe/Prague
+    timezone: IANA name of the zone of local times: Europe/Prague; of a clock on winter time all year its offset,
+        "+01:00" or UTC+1, which is kept by its IANA name, Etc/GMT-1
     encoding: of text; by default UTF-8, then what its words tell (cp932, euc-jp, gb18030, big5, cp949),
         cp1250 or cp1252, with a note
     table: layout of a table
@@ -153,6 +155,11 @@ class SourceSpec(Strict):
     topics: list[str] = []
     clock: Clock = Clock()
     options: dict[str, Any] = {}
+
+    @field_validator("timezone")
+    @classmethod
+    def _by_its_name(cls, value: str | None) -> str | None:
+        return None if value is None else zone_of_offset(value)
 
     @property
     def sheet_a_test(self) -> bool:

@@ -8,7 +8,7 @@ from thermodata.schema.files.crosscheck_channels import check_channels
 from thermodata.schema.files.crosscheck_tests import check_tests
 from thermodata.schema.strict.lines import Document, Place
 from thermodata.schema.strict.refer import inside, must_be, only_known_fields
-from thermodata.schema.words.zone_names import meant_zone
+from thermodata.schema.words.zone_names import hint_for_offset, meant_zone
 
 
 def check_campaign(campaign: Campaign, document: Document) -> None:
@@ -90,13 +90,14 @@ def _timezone(name: str, document: Document, place: Place) -> None:
     try:
         ZoneInfo(name)
     except (KeyError, ValueError, OSError):
-        close = meant_zone(name, sorted(available_timezones()))
+        hint = hint_for_offset(name)
+        close = None if hint else meant_zone(name, sorted(available_timezones()))
         raise SpecError(
             f"no time zone '{name}'",
             where=document.where(place),
-            expected="an IANA name, Europe/Prague",
+            expected="an IANA name, Europe/Prague, or an offset that holds all year, +01:00",
             got=name,
-            hint=f"did you mean '{close}'?" if close else None,
+            hint=f"did you mean '{close}'?" if close else hint,
         ) from None
 
 
