@@ -110,7 +110,12 @@ def test_a_short_measurement_is_no_spike_of_the_probe_in_the_air(
     ingest(store, path)
     with store.reader() as con:
         flags = [f for (f,) in con.execute("select flag from sample where channel = 'dZ' order by t").fetchall()]
-    assert np.flatnonzero(measured & ((np.array(flags) & int(Flag.SPIKE)) != 0)).tolist() == found
+        told = con.execute("select from_s, to_s, n from quality where channel = 'dZ' and flag = 'spike'").fetchall()
+    spikes = (np.array(flags) & int(Flag.SPIKE)) != 0
+    assert np.flatnonzero(measured & spikes).tolist() == found
+    # what is told is what is flagged, and nothing that was taken back
+    assert sum(n for _, _, n in told) == spikes.sum()
+    assert all(spikes[round(a / 10)] and spikes[round(b / 10)] for a, b, _ in told)
 
 
 def test_what_stands_at_one_value_is_none_whether_the_measured_samples_tell_it_as_stuck_or_as_an_end(

@@ -24,6 +24,7 @@ from thermodata.store.tidy.flags.measured_alone import DOUBTED, cleared
 from thermodata.store.tidy.flags.measuring import Stretches, find_stretches, lasts, measures, said
 from thermodata.store.tidy.flags.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.flags.standing import join_while_standing
+from thermodata.store.tidy.flags.trimmed import Trimmed
 from thermodata.store.tidy.flags.windows import Joined
 from thermodata.store.tidy.plan.plan import SCHEDULE, Bound
 from thermodata.store.tidy.values.chunk import Chunk, Column, calibrated
@@ -54,6 +55,7 @@ class Flagged:
     _repeats: dict[tuple[str, str], Activity] = field(default_factory=dict)
     _timed: list[str] = field(default_factory=list)
     _untold: bool = False  # `measuring` can't be evaluated: what it would mask is not known, so nothing counts
+    _trimmed: Trimmed = field(default_factory=Trimmed)
     _kept: dict[str, Stretches] = field(default_factory=dict)
     _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
 
@@ -66,10 +68,12 @@ class Flagged:
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(
-                join_while_standing(join_while_not_measuring(self._judged, self._activity, self._repeats), self.series)
-            )
+            for e in concise(join_while_standing(self._joined(), self.series))
         ]
+
+    def _joined(self) -> list[QualityEvent]:
+        """What was judged, as far as its flags stay; between the measuring phases one event a channel and flag."""
+        return join_while_not_measuring(self._trimmed.events(self._judged), self._activity, self._repeats)
 
     def _of_the_clock(self) -> list[QualityEvent]:
         if self.member[0] == SCHEDULE or self.start >= self.stop:
@@ -119,7 +123,10 @@ class Flagged:
             flags = joined.add(chunk.t_ns, seen, a - low, b - low)
             own = {n: c.part(a - low, b - low) for n, c in columns.items()}
             masks = self._masks(chunk.part(a, b), own)
-            flags = cleared(chunk.t_ns[a - low : b - low], joined.inputs(own), flags, masks)
+            given, t_ns = flags, chunk.t_ns[a - low : b - low]
+            flags = cleared(t_ns, joined.inputs(own), given, masks)
+            for name in masks:
+                self._trimmed.add(name, t_ns, given[name], flags[name])
             yield chunk, {n: Column(c.bound, c.values, flags[n]) for n, c in own.items()}, a, b
         self._judged += joined.events
 
