@@ -73,6 +73,17 @@ def test_names_of_others_without_a_place_are_told() -> None:
     assert told in losses_in_words([{"reason": text} for text in texts])[0]
 
 
+def test_each_channel_of_a_cause_is_named() -> None:
+    losses = [
+        {"test": test, "file": "c.yaml", "reason": f"channel '{name}': no unit is known of channels.{name}"}
+        for test in ("S4000", "S8000")
+        for name in ("dZ", "dX", "dY")
+    ]
+    assert losses_in_words(losses) == [
+        "6 times: channel 'dZ': no unit is known of channels.dZ (S4000, c.yaml); also in S8000; the same of 'dX', 'dY'"
+    ]
+
+
 def flag(test: str, channel: str, detail: str, n: int = 3) -> dict[str, object]:
     return with_reason(
         {

@@ -11,11 +11,13 @@ from thermodata.schema.words.sentences import with_count
 
 T = TypeVar("T")
 MOST_PLACES = 3  # named beside the first
+MOST_CHANNELS = 8
 _QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"")
 _PATH = re.compile(r"[^\s,:;()]*[/\\][^\s,:;()]*|[\w.-]+\.[A-Za-z]\w{1,5}\b")
 _NUMBER = re.compile(r"[-+]?\d(?:[\d.,:TZ+-]*\d)?(?:[eE][-+]?\d+)?")
 # what may differ between lines of one cause: a number comes with its unit
 _TOKEN = re.compile(rf"{_QUOTED.pattern}|{_PATH.pattern}|{_NUMBER.pattern}(?: ?(?:°C|[%A-Za-z]{{1,4}})\b)?")
+_CHANNEL = re.compile(r"channel '([^']+)': ")
 _WORD = re.compile(r"[\w.-]+")
 # one row stands, two rows stand: of one cause
 _SEVERAL = {"are": "is", "were": "was", "they": "it", "do": "does"}
@@ -60,11 +62,18 @@ def losses_in_words(losses: Sequence[Mapping[str, Any]], names: Collection[str] 
             others = dict.fromkeys(
                 o
                 for x in cause.members[1:]
-                if (o := _short(x) or _differing(cause.text, str(x["reason"]))) and o != _short(cause.first)
+                if (o := _elsewhere(x, cause.first) if _short(x) else _differing(cause.text, str(x["reason"])))
             )
-            line = f"{len(cause.members)} times: {line}{_others(list(others))}"
+            line = f"{len(cause.members)} times: {line}{_others(list(others))}{_channels(cause)}"
         said.append(line)
     return said
+
+
+def _channels(cause: Cause[Mapping[str, Any]]) -> str:
+    """The channels that lines are of which begin with one: where they stand does not say of which."""
+    begins = [found[1] for x in cause.members if (found := _CHANNEL.match(str(x["reason"])))]
+    others = [f"'{name}'" for name in dict.fromkeys(begins)][1:] if any(_short(x) for x in cause.members) else []
+    return f"; the same of {with_count(others, MOST_CHANNELS)}" if others else ""
 
 
 def notes_in_words(notes: Sequence[str], names: Collection[str] = ()) -> list[str]:
@@ -138,6 +147,11 @@ def _place(loss: Mapping[str, Any]) -> str:
 
 def _short(loss: Mapping[str, Any]) -> str:
     return str(loss.get("file") or loss.get("test") or loss.get("source") or "")
+
+
+def _elsewhere(loss: Mapping[str, Any], first: Mapping[str, Any]) -> str:
+    """What tells the place of a loss from the first one's; '' where nothing does."""
+    return next((str(loss[k]) for k in ("file", "test", "source") if loss.get(k) and loss[k] != first.get(k)), "")
 
 
 def _others(places: Sequence[str]) -> str:
