@@ -86,6 +86,21 @@ def test_a_channel_that_every_test_lost_is_mended_first_where_the_model_reads_it
     assert step() == f"next: thermodata fit {model}"
 
 
+def test_a_channel_without_a_unit_has_none_and_is_mended_first(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    for log in (tmp_path / "lab/raw").iterdir():
+        log.write_text(re.sub(r"dZ \[\w+\]", "dZ", log.read_text()))
+    path.write_text(re.sub(r"(dZ: \{.*?), unit: um(.*), calibration: \w+", r"\1\2", path.read_text()))
+    model = path.with_name("model.yaml")
+    model.write_text(path.with_name("baseline.yaml").read_text())
+    done = say("--store", tmp_path / "s", "ingest", path)
+    assert done.code == 3
+    assert "no unit is known of channels.dZ" in done.err + done.out
+    assert done.err.splitlines()[-1].startswith(f"next: mend dZ, which {model} reads and every test lost")
+    asked = "select distinct channel, unit from channel where channel in ('dZ', 'T_bearing') order by channel"
+    assert say("--store", tmp_path / "s", "sql", asked, "--csv").out.splitlines()[1:] == ["T_bearing,degC", "dZ,"]
+
+
 def test_a_lost_channel_that_a_first_model_does_without_stops_nothing(say: Say, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab")
     for log in (tmp_path / "lab/raw").iterdir():

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 _CHANNEL = re.compile(r"\bchannel '(\w+)'")
+_FILLED = """select distinct unnest(json_extract_string("columns", '$.filled[*]')) from file
+where campaign = ? and layer = 'tidy'"""
 _MOVES = ("displacement", "tilt")
 
 
@@ -98,8 +100,8 @@ def _of_no_campaign(path: Path, strange: Sequence[str], stored: Sequence[str], c
 def _lost_everywhere(
     con: duckdb.DuckDBPyConnection, campaign: str, losses: Sequence[Mapping[str, Any]]
 ) -> list[dict[str, Any]]:
-    """The channels that losses name and that no test has, each as the campaign file declares it."""
-    had = {c for (c,) in con.execute("select distinct channel from channel where campaign = ?", [campaign]).fetchall()}
+    """The channels that losses name and of which no test has a value, each as the campaign file declares it."""
+    had = {c for (c,) in con.execute(_FILLED, [campaign]).fetchall()}
     row = con.execute("select spec from campaign where campaign = ?", [campaign]).fetchone()
     declared: dict[str, Any] = json.loads(row[0]).get("channels", {}) if row else {}
     named = dict.fromkeys(name for loss in losses for name in _CHANNEL.findall(loss["reason"]))

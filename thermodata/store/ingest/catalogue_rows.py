@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from datetime import datetime
 from typing import Any
 
@@ -100,12 +100,14 @@ def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[
     }
 
 
-def channel_rows(plan: TestPlan, calibrations: Mapping[str, CalibrationResult]) -> list[Row]:
-    """Rows of `channel`, in the campaign's order."""
-    return [_channel_row(plan, bound, calibrations) for bound in plan.bound.values()]
+def channel_rows(
+    plan: TestPlan, calibrations: Mapping[str, CalibrationResult], empty: Collection[str] = ()
+) -> list[Row]:
+    """Rows of `channel`, in the campaign's order. empty: the channels without a value in this test."""
+    return [_channel_row(plan, bound, calibrations, bound.name in empty) for bound in plan.bound.values()]
 
 
-def _channel_row(plan: TestPlan, bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> Row:
+def _channel_row(plan: TestPlan, bound: Bound, calibrations: Mapping[str, CalibrationResult], empty: bool) -> Row:
     channel = bound.channel
     named = [channel.calibration] if isinstance(channel.calibration, str) else list(channel.calibration or [])
     sensor = None if channel.sensor is None else channel.sensor.model_dump(mode="json", exclude_none=True)
@@ -117,7 +119,8 @@ def _channel_row(plan: TestPlan, bound: Bound, calibrations: Mapping[str, Calibr
         "stream": bound.stream,
         "signal": bound.signal.name if bound.signal else None,
         "quantity": channel.quantity,
-        "unit": canonical(channel.quantity),
+        # of a signal whose unit nobody knows there is no value in any
+        "unit": "" if empty and bound.signal is not None and bound.unit is None else canonical(channel.quantity),
         "raw_unit": bound.unit,
         "axis": channel.axis,
         "at": channel.at,

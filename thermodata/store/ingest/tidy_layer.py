@@ -146,19 +146,24 @@ def _note_courses(note: TestNote, test: _Tidied) -> None:
     note.lent = estimated(test.clocks)
     note.start_s = None if test.where.relative else test.where.zero_ns / 1e9
     files = [(r["part"], meta_of(r)) for rows in test.files.values() for r in rows]
-    note.empty = [
-        [source, stream, b.name]
-        for (source, stream), rows in test.files.items()
-        for meta in map(meta_of, rows)
-        for b in test.plan.bound.values()
-        if "filled" in meta and (b.source, b.stream) == (source, stream) and b.name not in meta["filled"]
-    ]
+    note.empty = _empty(test)
     note.courses = [[meta["to_s"], meta.get("levels")] for part, meta in files if part == "test"]
     named = {name for _, levels in note.courses if levels for name in levels["values"]}
     own = {name: b.channel for name, b in test.plan.bound.items() if name in named}
     note.quantities = {name: channel.quantity for name, channel in own.items()}
     note.powered = [name for name, channel in own.items() if is_powered(channel.at)]
     note.around = [name for name, channel in own.items() if not channel.at or is_around(channel.at)]
+
+
+def _empty(test: _Tidied) -> list[list[str]]:
+    """[source, stream, name] of each channel without a value in a test."""
+    return [
+        [source, stream, b.name]
+        for (source, stream), rows in test.files.items()
+        for meta in map(meta_of, rows)
+        for b in test.plan.bound.values()
+        if "filled" in meta and (b.source, b.stream) == (source, stream) and b.name not in meta["filled"]
+    ]
 
 
 def _note_verdicts(note: TestNote, test: _Tidied) -> None:
@@ -264,7 +269,8 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, making: Making) -> None:
     note.notes += beyond_the_end(plan.test, lasts_s, step_s(files))
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
-    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, making.calibrations))
+    empty = {name for *_, name in _empty(tidied)}
+    _add(layer, test, "channel", catalogue_rows.channel_rows(plan, making.calibrations, empty))
     note.notes += [f"{test}, {name}: {n}" for name, clock in clocks.items() for n in clock.notes]
     note.notes += [f"{r.source_path}: {n}" for s in plan.sources.values() for r in s.raws for n in r.notes]
     note.losses += [

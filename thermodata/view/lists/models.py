@@ -46,7 +46,7 @@ class ModelRow:
 
 
 _MODELS = """
-with u as (select m.model, c.channel as response, min(c.unit) as unit from model m, channel c
+with u as (select m.model, c.channel as response, min(nullif(c.unit, '')) as unit from model m, channel c
            where list_contains(m.campaigns, c.campaign)
            and list_contains(string_split(m.response, ', '), c.channel) group by all),
 first as (select m.model, u.unit from model m left join u

@@ -45,7 +45,8 @@ class Known:
 def known_units(con: duckdb.DuckDBPyConnection) -> Known:
     """Asked once a copy: it takes as long as a small query."""
     channels = con.execute(
-        "select channel, case when count(distinct unit) = 1 then any_value(unit) end from channel group by channel"
+        "select channel, case when count(distinct unit) = 1 then any_value(unit) end from channel "
+        "where unit <> '' group by channel"
     ).fetchall()
     comments: dict[str, dict[str, str]] = {}
     columns: dict[str, set[str]] = {}
