@@ -312,3 +312,6 @@ tests:
         assert con.execute(f"select count(*) from sample where channel = 'dZ' and {both}").fetchall() == [(50,)]
     (found,) = find_tests(store, Asked()).rows
     assert found.valid == pytest.approx(1 - sum(n for _, n in counts) / 900)
+    of_the_probe = 1 - dict(counts)["dZ"] / 300
+    assert of_the_probe < found.valid, "the bed and the state count throughout"
+    assert (found.measured_least, found.measured_most) == (pytest.approx(of_the_probe), pytest.approx(of_the_probe))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.web.app import application
@@ -17,7 +18,7 @@ from thermodata.web.desk import desk_of
 from thermodata.web.later import page_named
 
 from .client import Client
-from .conftest import PORT
+from .conftest import PORT, client_of
 
 ASKED = """
 import json, sys
@@ -91,3 +92,12 @@ def test_a_page_that_there_is_not_is_said(made_lab: Path) -> None:
     desk = desk_of(made_lab, None, write=False, port=PORT)
     headers = [("host", desk.host), ("cookie", f"thermodata_{desk.port}={desk.keys.session}")]
     assert Client(application(desk), headers).get("/nowhere").status == 404
+
+
+def test_the_share_of_the_displacement_stands_below_that_of_all_channels(lab: Path) -> None:
+    path = lab / "campaign.yaml"
+    text = path.read_text()
+    assert "displacement 0 %" not in client_of(lab)[0].get("/").text
+    path.write_text(text.replace("role: verification", 'role: verification, measuring: "T_hall > 1000"', 1))
+    assert main(["--store", str(lab / "thermodata.store"), "ingest", str(path)]) in (0, 3)
+    assert '<br><small class="muted">displacement 0 %</small>' in client_of(lab)[0].get("/").text

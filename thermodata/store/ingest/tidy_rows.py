@@ -43,6 +43,7 @@ def tidy_rows(
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
             meta |= {"filled": sorted(result.filled), "not_counting": result.not_counting}
+            meta |= {"counting": result.counting} if result.counting else {}
         rows.append(
             {
                 **dataclasses.asdict(of),

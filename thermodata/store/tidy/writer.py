@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D, Loss
 from thermodata.schema.flag import CONSTANT, INVALID, Flag
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
@@ -64,6 +65,7 @@ class TidyResult:
     problems: list[str] = field(default_factory=list)
     notes: tuple[str, ...] = ()
     filled: set[str] = field(default_factory=set)  # channels that have a value at all
+    counting: dict[str, list[int]] = field(default_factory=dict)  # what a model explains -> [samples that count, all]
 
 
 def write_member(series: TestSeries, member: Member, columns: Columns, key: str, verdict: Verdict) -> TidyResult:
@@ -271,6 +273,10 @@ def _count(result: TidyResult, channels: dict[str, Column]) -> None:
         result.samples += len(column.flags)
         if name not in result.filled and (column.values.dtype.kind != "f" or not np.isnan(column.values).all()):
             result.filled.add(name)
+        if column.bound.channel.quantity in MEASURED:
+            of = result.counting.setdefault(name, [0, 0])
+            of[0] += int(np.count_nonzero((column.flags & np.uint16(INVALID)) == 0))
+            of[1] += len(column.flags)
         if not column.flags.any():
             continue
         seen = int(np.bitwise_or.reduce(column.flags))

@@ -47,6 +47,12 @@ ruled_out as (
 sizes as (
     select campaign, test, sum(cast(columns->>'$.samples' as bigint)) as samples, count(*) as streams
     from file where layer = 'tidy' and part = 'test' group by all),
+counting as (
+    select campaign, test, min(share) as measured_least, max(share) as measured_most from (
+        select campaign, test, c.value[1] / c.value[2] as share from (
+            select campaign, test,
+                   unnest(coalesce(cast(columns->'$.counting' as map(varchar, bigint[])), map {{}}).map_entries()) as c
+            from file where layer = 'tidy' and part = 'test') where c.value[2] > 0) group by all),
 errors as (
     select campaign, test, max(rmse_um) as rmse_um, min(fit) as fit, max(role) as model_role from score_row
     where model = $model and phase = 'all' group by all),
@@ -58,10 +64,11 @@ listed as (
            coalesce(said.conditions, t.conditions) as conditions, t.notes,
            s.samples, coalesce(s.streams, 0) as streams,
            case when s.samples > 0 then 1 - least(coalesce(r.n, 0) / s.samples, 1) end as valid,
-           e.rmse_um, e.fit, e.model_role
+           m.measured_least, m.measured_most, e.rmse_um, e.fit, e.model_role
     from test t
     left join sizes s on (s.campaign, s.test) = (t.campaign, t.test)
     left join ruled_out r on (r.campaign, r.test) = (t.campaign, t.test)
+    left join counting m on (m.campaign, m.test) = (t.campaign, t.test)
     left join errors e on (e.campaign, e.test) = (t.campaign, t.test)
     left join said on (said.campaign, said.test) = (t.campaign, t.test))
 """
@@ -84,9 +91,10 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class TestRow:
-    """valid: share of the samples that count, 0 to 1; None where nothing was logged. rmse_um, fit: of the model's worst
-    response over the whole test; model_role: of the test in the model, such as 'verification (in-sample)'; None
-    where it was not predicted."""
+    """valid: share of the samples that count, 0 to 1; None where nothing was logged. measured_least, measured_most: of
+    those of the displacement, tilt or angle of which fewest and most count; outside of `measuring` none do. rmse_um,
+    fit: of the model's worst response over the whole test; model_role: of the test in the model, such as 'verification
+    (in-sample)'; None where it was not predicted."""
 
     __test__ = False
     campaign: str
@@ -100,6 +108,8 @@ class TestRow:
     samples: int
     streams: int
     valid: float | None
+    measured_least: float | None
+    measured_most: float | None
     rmse_um: float | None
     fit: float | None
     model_role: str | None
