@@ -159,6 +159,25 @@ def test_wrong_usage_is_2_and_says_where_help_is(say: Say, words: list[str]) -> 
     assert "--help" in said.err
 
 
+def test_columns_without_a_value_that_have_no_room_are_named(say: Say, made_campaign: Path) -> None:
+    done = say(
+        "--store",
+        made_campaign / "thermodata.store",
+        "sql",
+        "select * from channel where quantity = 'temperature' limit 3",
+    )
+    assert "relative_to" not in done.out
+    (said,) = [line for line in done.err.splitlines() if line.startswith("without a value")]
+    assert "without a value in these rows: axis, relative_to" in said
+    done = say(
+        "--store",
+        made_campaign / "thermodata.store",
+        "sql",
+        "select channel, axis from channel where quantity = 'temperature' limit 3",
+    )
+    assert "without a value" not in done.err, "it is seen"
+
+
 @pytest.mark.parametrize("command", [["tests"], ["fit", "baseline"], ["sql", "select 1"], ["gc"], ["report", "x"]])
 def test_without_a_store_the_hint_is_ingest(say: Say, tmp_path: Path, command: list[str]) -> None:
     said = say("--store", tmp_path / "none", *command)

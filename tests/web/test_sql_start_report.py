@@ -203,3 +203,21 @@ def test_a_start_beside_stored_campaigns_names_them_and_leads_there(lab: Path, t
         assert "The store holds 1 campaign:" in text
         assert "Another campaign from its raw logs" in text
         assert ("/start?file=" in text) is there
+
+
+def test_columns_have_their_units_and_those_of_one_unit_an_axis(reader: Client) -> None:
+    text = reader.get(
+        "/sql?q=" + quote("select t_s, dZ, T_bearing, T_hall from aligned('small', 'heat1', '60 s')")
+    ).text
+    assert "t_s [s]</th>" in text
+    assert "dZ [µm]</th>" in text
+    assert "T_bearing [degC]</th>" in text
+    chart = json.loads(re.search(r'id="sqlplot">(.*?)</script>', text)[1])
+    assert [(p["title"], p["unit"]) for p in chart["panels"]] == [("dZ", "um"), ("T_bearing, T_hall", "degC")]
+    text = reader.get("/sql?q=" + quote("select channel, value from temperature limit 5")).text
+    assert "value [degC]</th>" in text
+
+
+def test_what_fails_is_answered_with_what_the_command_says(reader: Client) -> None:
+    said = reader.get("/sql?q=" + quote("select nonsense from test")).text
+    assert "<p>Try: test.test is its name; thermodata sql &#34;describe test&#34; lists its columns</p>" in said

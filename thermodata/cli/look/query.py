@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 import sys
 from collections.abc import Iterator
 from itertools import chain, islice
@@ -66,14 +67,22 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
     else:
         first = relation.limit(rows + 1)
         found = list(islice(chain.from_iterable(interruptible(_small(first), relation.interrupt)), rows + 1))
-        click.echo(
-            table(
-                [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
-                [(str(i), name) for i, name in enumerate(columns)],
-            )
+        text = table(
+            [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],
+            [(str(i), name) for i, name in enumerate(columns)],
         )  # by position: names may repeat
+        click.echo(text)
+        if empty := _left_out(columns, found[:rows], text):
+            session.say(f"without a value in {'these rows' if len(found) > 1 else 'this row'}: {', '.join(empty)}")
         if len(found) > rows:
             session.say(f"the first {rows} rows; --rows N shows more, --csv all")
+
+
+def _left_out(columns: list[str], rows: list[tuple[Any, ...]], text: str) -> list[str]:
+    """The columns without a value in any row that a table which has no room for all of them does not show."""
+    empty = [name for i, name in enumerate(columns) if rows and all(row[i] is None for row in rows)]
+    heads = " ".join(part.partition("\n─")[0] for part in text.split("\n\n") if "\n─" in part)
+    return [name for name in empty if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", heads) is None]
 
 
 def _small(relation: Any) -> Iterator[list[tuple[Any, ...]]]:

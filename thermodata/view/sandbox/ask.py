@@ -7,9 +7,9 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, Literal
 
@@ -30,18 +30,20 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """columns: (name, type of DuckDB's). rows: values of JSON, long texts cut. more: whether rows were left out."""
+    """columns: (name, type of DuckDB's). rows: values of JSON, long texts cut. more: whether rows were left out.
+    units: column -> unit, of those that are as the store has them."""
 
     columns: tuple[tuple[str, str], ...]
     rows: tuple[tuple[Any, ...], ...]
     more: bool
+    units: Mapping[str, str] = field(default_factory=dict)
 
 
 def ask(store: Path | str, query: str, limits: Limits = Limits()) -> Table:
     """The rows of one SELECT over a store. UsageError where it is refused, fails, or goes beyond a limit."""
     with _running(store, query, "table", limits) as (head, _):
         columns = tuple((str(name), str(kind)) for name, kind in head["columns"])
-        return Table(columns, tuple(tuple(row) for row in head["rows"]), bool(head["more"]))
+        return Table(columns, tuple(tuple(row) for row in head["rows"]), bool(head["more"]), head["units"])
 
 
 def stream(store: Path | str, query: str, form: Form, limits: Limits = Limits()) -> Iterator[bytes]:

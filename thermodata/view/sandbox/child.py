@@ -1,7 +1,7 @@
 """What runs in the process of its own: one request on stdin; on stdout a line of JSON about the answer, then its rows.
 
 The line: {"columns": [[name, type], ...]} or {"refused": {what, where, expected, got, hint, exit_code}}. For a table
-the line holds the rows too, and whether there are more.
+the line holds the rows too, whether there are more, and the units of its columns.
 """
 
 from __future__ import annotations
@@ -44,12 +44,13 @@ def main(source: IO[bytes], sink: IO[bytes]) -> int:
 
 def _answer(request: dict[str, Any], sink: IO[bytes]) -> None:
     from thermodata.store import Store
+    from thermodata.view.query.units import column_units, known_units
     from thermodata.view.sandbox.enclosed import enclosed
     from thermodata.view.sandbox.parse import check_select
 
     con = enclosed(Store(Path(request["store"])), request["memory_mb"])
     check_select(con, request["query"])
-    relation = con.sql(request["query"])
+    relation = _asked(con, request["query"])
     if relation is None:
         raise UsageError(
             "the query gives no table",
@@ -60,12 +61,28 @@ def _answer(request: dict[str, Any], sink: IO[bytes]) -> None:
     head: dict[str, Any] = {"columns": [[n, str(t)] for n, t in zip(relation.columns, relation.types, strict=True)]}
     most = int(request["rows"])
     if request["form"] == "table":
-        rows = relation.limit(most + 1).fetchall()
+        first = relation.limit(most + 1)
+        rows = first.fetchall()
         head |= {"rows": [[_cell(v) for v in row] for row in rows[:most]], "more": len(rows) > most}
+        head["units"] = column_units(con, known_units(con), request["query"], first)
         _line(sink, head)
         return
     _line(sink, head)
     _stream(relation.limit(most), request["form"], sink)
+
+
+def _asked(con: duckdb.DuckDBPyConnection, query: str) -> duckdb.DuckDBPyRelation | None:
+    """The relation of a query; UsageError where DuckDB refuses it, with what `thermodata sql` says to do."""
+    import duckdb
+
+    from thermodata.view.query.unknown_column import unknown_column_hint
+
+    try:
+        return con.sql(query)
+    except duckdb.BinderException as error:
+        raise UsageError(
+            "the query fails", got=str(error).strip(), hint=unknown_column_hint(con, query, error)
+        ) from error
 
 
 def _stream(relation: duckdb.DuckDBPyRelation, form: str, sink: IO[bytes]) -> None:

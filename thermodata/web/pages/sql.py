@@ -32,6 +32,7 @@ EXAMPLES = (
 _KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 _TAKEN = Limits(seconds=120, rows=5_000_000)
 _MOST_CURVES, _MOST_QUERY = 6, 20_000
+_HEIGHT = 260  # of a panel, as the template knows it
 
 
 def show(request: Request) -> Response:
@@ -48,6 +49,7 @@ def show(request: Request) -> Response:
             error = refused
     numbers = _numbers(table) if table else []
     x = given.get("plot") or (numbers[0] if "t_s" not in numbers else "t_s") if len(numbers) > 1 else ""
+    chart = _chart(table, x, numbers) if table and x in numbers and len(table.rows) > 1 else None
     return page(
         request,
         "sql.html.j2",
@@ -60,9 +62,8 @@ def show(request: Request) -> Response:
         error=error,
         numbers=numbers,
         x=x,
-        plot=script_json(_chart(table, x, numbers).as_json())
-        if table and x in numbers and len(table.rows) > 1
-        else None,
+        plot=script_json(chart.as_json()) if chart else None,
+        panels=len(chart.panels) if chart else 0,
         views=_views(store),
         examples=_examples(store),
     )
@@ -115,20 +116,24 @@ def _chart(table: Table, x: str, numbers: list[str]) -> Chart:
     order = order[np.isfinite(values[x][order])]
     curves = [n for n in numbers if n != x and not n.endswith("__flag")][:_MOST_CURVES]
     styles = effect_styles(curves)
+    by_unit: dict[str, list[str]] = {}  # micrometres and degrees share no axis
+    for name in curves:
+        by_unit.setdefault(table.units.get(name, ""), []).append(name)
     along = values[x][order]
     # many rows of one x make no line
     style = "line" if len(along) and len(np.unique(along)) > 0.9 * len(along) else "points"
     return Chart(
         f"{', '.join(curves)} over {x}",
-        Axis(x, "s" if x.endswith("_s") else ""),
+        Axis(x, table.units.get(x, "s" if x.endswith("_s") else "")),
         along,
         [
             Panel(
-                ", ".join(curves),
-                "",
-                [Series(n, "", values[n][order], styles[n][0], dash=styles[n][1], style=style) for n in curves],  # type: ignore[arg-type]
-                height=260,
+                ", ".join(some),
+                unit,
+                [Series(n, unit, values[n][order], styles[n][0], dash=styles[n][1], style=style) for n in some],  # type: ignore[arg-type]
+                height=_HEIGHT,
             )
+            for unit, some in by_unit.items()
         ],
     )
 
