@@ -310,6 +310,9 @@ def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp
     told = say(*words, "heat1", tmp_path / "two.csv").out
     assert re.search(r"^columns  campaign, test, time_utc, t_s \[s\], ", told, re.M), "each column once, with its unit"
     assert "units " not in told
+    told = say(*words, "heat1", "day1", out, "--force").out
+    assert told.count("T_hall") == 1, "columns that are alike are told once"
+    assert re.search(r"^columns  the same \d+$", told, re.M)
 
 
 def test_quality_tells_what_a_diagnosis_told_of_the_logs_and_no_flag_does(

@@ -23,6 +23,13 @@ def test_an_effect_is_shown_with_all_that_it_states(say: Say) -> None:
     assert answer["formats"] is None
 
 
+def test_what_stands_for_several_in_a_place_is_explained(say: Say) -> None:
+    said = say("plugins", "show", "spindle_friction").out
+    assert "{s}spindle: any spindle, such as spindle or counter_spindle" in said
+    assert "{a}: one axis letter, the same throughout" in say("plugins", "show", "feed_motor").out
+    assert "{" not in say("plugins", "show", "ambient_frame").out.partition("driver  ")[2]
+
+
 def test_an_effect_of_time_alone_has_no_table_of_drivers(say: Say) -> None:
     out = say("plugins", "show", "drift").out
     assert "d = k t" in out

@@ -44,6 +44,12 @@ def test_a_rank_is_one_of_this_verdict_whatever_was_asked_since() -> None:
     assert of.told[3:] == [("coolant:coolant_on", False), ("coolant:coolant_on", "lag:T_hall", False)]
 
 
+def test_claims_are_shown_in_a_line_each() -> None:
+    (claim,) = verdict(Asked()).claims
+    assert repr(claim).startswith("Candidate(rank=1, id='coolant:coolant_on', claimed=True, refinement=False, prob")
+    assert len(repr(claim)) < 200
+
+
 def test_a_verdict_on_a_temperature_is_in_kelvin() -> None:
     one = verdict(Asked())
     assert "0.500 K" in one.sentence

@@ -5,6 +5,9 @@ import json
 import os
 import re
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -300,3 +303,20 @@ def test_a_mean_of_one_sample_weighs_as_one_sample(data: ReportData, ends: float
     assert figures["left over in all open tests"] == pytest.approx(np.sqrt(np.mean(whole**2)), rel=0.01)
     expected = np.sqrt(25.0 / len(whole)) if ends == 5.0 else 0.0
     assert figures["of it, in means of 30 min"] == pytest.approx(expected, abs=0.01)
+
+
+def test_a_minus_is_one_sign_in_values_and_ranges(data: ReportData) -> None:
+    cells = re.search(r'<td class="n">−2.410?</td><td>[^<]*</td><td>([^<]*)</td>', render(data))
+    assert cells is not None
+    assert "-" not in cells[1]
+    assert cells[1].startswith("−2.5")
+
+
+def test_a_state_that_the_residual_does_not_go_with_is_named_and_not_drawn(data: ReportData) -> None:
+    states = [SimpleNamespace(state=name, correlation=r) for name, r in (("T_hall", 0.004), ("feed", -0.42))]
+    seen = SimpleNamespace(paths=[], not_shown=[], ljung_box=[], states=states)
+    with mock.patch("thermodata.report.page.page.system_charts", return_value={}):
+        page = render(dataclasses.replace(data, systems=(cast(Any, seen),)))
+    assert "feed: r −0.42" in page
+    assert "T_hall: r" not in page
+    assert "It does not go with T_hall." in page

@@ -21,6 +21,7 @@ from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.stale import fitted_again
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
+from thermodata.web.render import begun
 
 from .client import Client
 from .conftest import client_of
@@ -302,3 +303,15 @@ def test_counts_shares_and_limits_have_no_zeros_that_say_nothing(reader: Client)
     assert told
     assert not [n for n in told if n.endswith("0")]
     assert "it may be larger than the residual" in reader.get("/missing").text
+
+
+@pytest.mark.parametrize(
+    ("sentence", "shown"),
+    [
+        ("hold the spindle at 3 speeds", "Hold the spindle at 3 speeds"),
+        ("table_bearing:Pt11 and lag:Pt12 need a test", "table_bearing:Pt11 and lag:Pt12 need a test"),
+        ("lag:Pt11 needs a test", "lag:Pt11 needs a test"),
+    ],
+)
+def test_an_identifier_begins_a_sentence_as_it_is_written(sentence: str, shown: str) -> None:
+    assert begun(sentence) == shown

@@ -52,6 +52,7 @@ def environment() -> jinja2.Environment:
         duration=duration,
         typeset=typeset,
         probability=probability,
+        begun=begun,
         percent=lambda share: typeset(percent(share)),
         base_role=base_role,
         plain=lambda text: str(text).replace("_", " "),
@@ -64,6 +65,12 @@ def environment() -> jinja2.Environment:
 def desk_of(request: Request) -> Desk:
     desk: Desk = request.app.state.desk
     return desk
+
+
+def begun(sentence: str) -> str:
+    """A sentence with a capital, but where it begins with the name of an effect or a channel: table_bearing:Pt11."""
+    name = re.match(r"\S*[_:.\d]\S", sentence)
+    return sentence if name else sentence[:1].upper() + sentence[1:]
 
 
 def plain_number(value: float, digits: int = 3) -> str:

@@ -82,6 +82,14 @@ def _reader(name: str) -> dict[str, Any]:
     }
 
 
+# what stands for several in a place or a family -> what it is (docs/effects.md)
+_PLACEHOLDERS = {
+    "{a}": "{a}: one axis letter, the same throughout",
+    "{s}": "{s}spindle: any spindle, such as spindle or counter_spindle",
+    "?": "spindle.bearing?: the part, or the whole where the part has no sensor",
+}
+
+
 def _text(answer: Mapping[str, Any]) -> str:
     origin = f"{answer['distribution'] or 'no distribution'} {answer['version'] or ''}".rstrip()
     head = f"{answer['kind']} {answer['name']}  ({origin})"
@@ -125,6 +133,8 @@ def _text(answer: Mapping[str, Any]) -> str:
         [("role", "driver"), ("quantity", "quantity"), ("unit", "unit"), ("needed", "needed"), ("places", "places")],
         widest=WIDEST,
     )
+    words = [said for part, said in _PLACEHOLDERS.items() if part in f"{driven} {answer['family']}"]
+    driven = "\n".join([driven, *([f"\n{'; '.join(words)}"] if words else [])])
     columns = [("name", "parameter"), ("how", "how"), ("unit", "unit"), ("bounds", "bounds"), ("meaning", "meaning")]
     searched = table(numbers, columns, widest=WIDEST)
     return "\n\n".join([f"{head}\n{answer['meaning']}", listed, *([driven] if roles else []), searched])

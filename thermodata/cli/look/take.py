@@ -70,16 +70,19 @@ def export_command(
     found = [plain(export_test(view, campaign, test, path, step=step, kind=kind)) for test, path in paths.items()]
 
     def text() -> str:
-        return "\n\n".join(_told(one) for one in found)
+        # the columns of several tests are alike mostly, and told with the first of those that are
+        before = [None, *(one["columns"] for one in found)]
+        return "\n\n".join(_told(one, other) for one, other in zip(found, before, strict=False))
 
     session.answer(found[0] if len(tests) == 1 else found, text)
 
 
-def _told(one: Mapping[str, Any]) -> str:
-    """Of an export for a person: each column once, with its unit."""
+def _told(one: Mapping[str, Any], before: list[str] | None) -> str:
+    """Of an export for a person: each column once, with its unit. before: the columns of the one told before it."""
     units = one["units"]
+    alike = before == one["columns"]
     columns = [f"{name} [{units[name]}]" if units.get(name) not in (None, "", "1") else name for name in one["columns"]]
-    shown = {**one, "rows": one["streams"] or one["rows"], "columns": columns}
+    shown = {**one, "rows": one["streams"] or one["rows"], "columns": f"the same {len(columns)}" if alike else columns}
     lines = fields([(key, value) for key, value in shown.items() if key not in ("streams", "units")]).splitlines()
     # a path stays whole, to be copied
     return "\n".join(prose(line) if line.startswith("columns ") else line for line in lines)

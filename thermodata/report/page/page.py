@@ -95,7 +95,7 @@ def _template() -> Any:
         typeset=typeset,
         probability=probability,
         change=change,
-        correlation=correlation_text,
+        correlation=lambda r: typeset(correlation_text(r)),
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
     return environment.from_string((files("thermodata.report.page") / "page.html.j2").read_text(encoding="utf-8"))
@@ -152,7 +152,7 @@ def _parameter_rows(data: ReportData) -> dict[str, Any]:
     """Parameters by effect, and the checks of the fit that failed."""
     parts = ((key, key.rpartition("."), p) for key, p in data.parameters.items())
     rows = [
-        {"effect": effect or key, "name": name, "span": span(data, key), **p.model_dump()}
+        {"effect": effect or key, "name": name, "span": typeset(span(data, key)), **p.model_dump()}
         for key, (effect, _, name), p in parts
     ]
     return {"parameters": rows, "checks": [c for c in data.checks if not c.passed]}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Iterator
+from typing import Any, Literal
 
 from thermodata.schema.answers.result import Parameter, Result
 
@@ -68,6 +69,10 @@ class CandidateCourse(Result):
     t_s: list[float]
     residual_um: list[float]
     contribution_um: list[float]
+
+
+# of a candidate in a list: all of it has thousands of figures
+_SAID = ("rank", "id", "claimed", "refinement", "probability")
 
 
 class Candidate(Result):
@@ -158,3 +163,6 @@ class Candidate(Result):
     rungs: list[Rung] = []
     left_out: list[LeftOut] = []
     courses: list[CandidateCourse] = []
+
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        yield from ((name, getattr(self, name)) for name in _SAID)

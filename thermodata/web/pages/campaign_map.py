@@ -14,7 +14,7 @@ from thermodata.view.lists.models import ModelRow, model_rows
 from thermodata.view.lists.overview import Asked, Sort, find_tests
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
-from thermodata.web.pages.strip import strip_svg
+from thermodata.web.pages.strip import FULL_COLOUR, strip_svg
 from thermodata.web.query import number_in
 from thermodata.web.render import desk_of, page
 
@@ -72,7 +72,7 @@ def _limit(strips: dict[Any, Any]) -> float:
 
     everything = np.concatenate(list(strips.values()))
     there = np.abs(everything[np.isfinite(everything)])
-    return float(np.quantile(there, 0.98)) if len(there) else 1.0
+    return float(np.quantile(there, FULL_COLOUR)) if len(there) else 1.0
 
 
 def _command(store: Any, asked: Asked, model: ModelRow | None) -> str:

@@ -15,6 +15,7 @@ from thermodata.view.curves.contributions import test_names
 from thermodata.view.curves.predictions import Prediction, residual_strips
 from thermodata.view.curves.residuals import Key, against
 from thermodata.view.lists.models import ModelRow
+from thermodata.web.pages.strip import FULL_COLOUR
 
 BINS = 120
 _MOST_LAG_S = 6 * 3600.0
@@ -30,7 +31,7 @@ def maps(
         if not strips:
             continue
         values = np.vstack([strips.get(k, np.full(BINS, np.nan)) for k in keys])
-        limit = limit or float(np.nanquantile(np.abs(values), 0.99)) or 1.0
+        limit = limit or float(np.nanquantile(np.abs(values), FULL_COLOUR)) or 1.0
         heat = HeatMap(
             f"Residual of {response} by {model.label} over every test",
             Axis("share of the test", "%"),

@@ -10,6 +10,7 @@ from markupsafe import Markup
 if TYPE_CHECKING:
     from thermodata.plugin import Float1D
 
+FULL_COLOUR = 0.98  # share of all stretches of a page that are below full colour, here and beside each other
 _STEPS = 6  # tints either side of zero; the style sheet has a class for each
 
 
