@@ -161,7 +161,8 @@ class Reader(Protocol):
       conformance kit shows them to all other readers, none of which may claim them.
     - `unordered: bool`: the rows of its files need not stand in the order of their times (messages of many writers):
       they are sorted, and a step back is no clock that was set.
-    - `gives_way: bool`: the reader is a general one, and claims a file only where no other reader does.
+    - `gives_way: bool`: the reader is a general one, and claims a file only where no other reader does. Of two that
+      claim a file and do not give way none is taken: the source says `reader: NAME`.
     """
 
     name: str

@@ -101,6 +101,8 @@ def test_two_claims_are_an_error_with_both_reasons(install, tmp_path: Path) -> N
         registry.sniff(write(tmp_path, b"ABC"))
     assert """one ("starts with b'A'") and two ("starts with b'AB'") claim x.dat""" in caught.value.what
     assert "set 'reader'" in str(caught.value)
+    assert "such as reader: one: no installed reader is taken before another" in str(caught.value)
+    assert "gives_way = True" in str(caught.value)
 
 
 def test_no_claim_names_the_readers(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]

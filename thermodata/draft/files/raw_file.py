@@ -283,7 +283,10 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
         why = why_no_table(path)
         return None, f"no reader claims it ({kind_of(path)}): {why or 'thermodata sniff says why'}"
     said = " and ".join(f"{name} ({why})" for name, why in found.items())
-    return None, f"two readers claim it: {said}; declare one as the reader of a source"
+    return (
+        None,
+        f"two readers claim it: {said}; declare one as the reader of a source, such as reader: {next(iter(found))}",
+    )
 
 
 def sample_of_file(path: Path, file: RawFile) -> Sample:

@@ -203,5 +203,6 @@ def sniff(path: Path | str) -> Reader:
         f"{reasons} claim {path.name}",
         where=str(path),
         expected="one reader",
-        hint="set 'reader' in the campaign file's source",
+        hint=f"set 'reader' in the campaign file's source, such as reader: {next(iter(found))}: no installed reader is "
+        "taken before another; one of your own claims less in `sniff`, or has `gives_way = True` (CONTRIBUTING.md)",
     )
