@@ -9,6 +9,8 @@ import pytest
 from thermodata.draft.known.by_patterns import ids_in
 from thermodata.draft.known.of_logs import campaign_of_logs
 from thermodata.schema.files.load import parse_campaign
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
 
 Tests = dict[str, dict[str, list[str]]]
 
@@ -109,3 +111,34 @@ def test_two_sources_of_one_test_are_one(
 )
 def test_a_test_ends_where_a_piece_of_the_name_does(name: str, pattern: str, ids: list[str]) -> None:
     assert ids_in(name, [pattern]) == ids
+
+
+@pytest.mark.parametrize(("probe", "start"), [("daq", "08:05"), ("hall", "08:00")])
+def test_a_test_begins_with_the_record_of_its_probes_though_the_model_reads_none(
+    tmp_path: Path, probe: str, start: str
+) -> None:
+    """As in the campaign: temperatures count from there."""
+    for name, signal, first in (("d1_daq.csv", "T_bed", 5), ("d1_hall.csv", "Air", 0)):
+        rows = "".join(f"2026-03-02 08:{i:02d}:00,{20 + i / 100},{i}\n" for i in range(first, 60))
+        (tmp_path / name).write_text(f"time,{signal} [degC],dZ [um]\n{rows}")
+    known = parse_campaign(
+        f"""
+schema: thermodata/campaign/1
+id: known
+sources:
+  daq: {{reader: table, files: "{{test}}_daq.csv"}}
+  hall: {{reader: table, files: "{{test}}_hall.csv"}}
+channels:
+  T_bed: {{source: daq, signal: T_bed, quantity: temperature, unit: degC, at: bed}}
+  T_air: {{source: hall, signal: Air, quantity: temperature, unit: degC, at: hall.top}}
+  dZ: {{source: {probe}, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp}}
+tests: [{{id: old, role: none}}]
+""",
+        "campaign.yaml",
+    )
+    made = campaign_of_logs(known, tmp_path, ["T_bed", "T_air"])
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, tmp_path / "campaign.yaml", campaign=made)
+    with store.reader() as con:
+        rows_of = con.execute("select strftime(start, '%H:%M') from test").fetchall()
+    assert rows_of == [(start,)]

@@ -62,6 +62,10 @@ def predict_command(
     (speeds, powers, switches) counts as at rest before the first sample. t_s is where a step of the model begins, and
     the value its mean over that step: it belongs to the step's middle.
 
+    Of a folder only the logs are read that the model reads. A campaign of the store has all of its logs, of which
+    another may begin minutes before: the steps of a test begin there, and the course lies a little (0.1 um) beside
+    that of the folder.
+
     The band of 95 % is of the parameters, the calibration of the probe that was fitted, and what the model leaves on
     tests that took no part in its fit; the text says what it does not hold.
     Exit code 3 says that tests were left out.

@@ -15,6 +15,7 @@ from thermodata.schema.files.campaign import Campaign, SourceSpec, Test
 from thermodata.schema.files.tests_from import pattern_of
 from thermodata.store.ingest.reading.resolve import natural
 
+_PROBED = ("displacement", "tilt")
 MOST_FILES = 100_000
 
 
@@ -46,7 +47,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
         )
     kept = {c: known.channels[c] for c in known.channels if c in wanted}
     calibrations = {n for c in kept.values() for n in as_list(c.calibration)}
-    return Campaign.model_validate(
+    made = Campaign.model_validate(
         {
             "schema": "thermodata/campaign/1",
             "id": re.sub(r"[^A-Za-z0-9._-]+", "-", folder.resolve().name).strip("-._") or "logs",
@@ -62,6 +63,8 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
             ],
         }
     )
+    # a test begins as in the campaign: its temperatures count from there, and so do the steps of the model
+    return made.begun_by({str(c.source) for c in known.channels.values() if c.quantity in _PROBED} & sources.keys())
 
 
 def _with_their_parts(known: Campaign, channels: Collection[str]) -> set[str]:
