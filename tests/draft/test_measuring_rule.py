@@ -76,6 +76,36 @@ def test_a_state_that_goes_with_the_range_is_a_rule(tmp_path: Path, say: Say) ->
     assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == "probing_active == 1"
 
 
+@pytest.mark.parametrize(
+    ("name", "passes", "early", "ruled"),
+    [
+        ("AtProbe", 0, 0, True),  # a switch by its values alone
+        ("AtProbe", 2, 0, True),  # the probe is in range on the way there and back as well
+        ("Valve 7", 0, 0, True),
+        ("Valve 7", 2, 0, False),
+        ("AtProbe", 0, 2, False),  # it says so before the probe is in range
+    ],
+)
+def test_a_switch_by_its_values_or_its_name_is_a_rule(
+    name: str, passes: int, early: int, ruled: bool, tmp_path: Path, say: Say
+) -> None:
+    """passes: rows before and behind a measurement in which the probe is in range; early: rows of out of range in which
+    the switch is on."""
+    n = 720
+    t = np.arange(n) * 10.0
+    row = np.arange(n) % 72
+    growth = 40 * (1 - np.exp(-t / 2000)) + np.random.default_rng(1).normal(0, 0.2, n)
+    shown = [f"{g:.2f}" if 20 - passes <= r < 32 + passes else "500.00" for g, r in zip(growth, row, strict=True)]
+    on = [f"{int(20 - early <= r < 32)}" for r in row]
+    columns = [numbers(t, 0), shown, on, numbers(20 + t / 3000, 2)]
+    text(tmp_path / "work.csv", ["t [s]", "W_Z [um]", name, "T nut Z [degC]"], columns, mark=",")
+    say("init", tmp_path)
+    rule = f"{name.replace(' ', '_')} == 1"
+    assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == (rule if ruled else None)
+    by_name = "measuring guess: by its name, and no probe is out of range then"
+    assert (by_name in (tmp_path / "campaign.yaml").read_text("utf-8")) is (ruled and bool(passes))
+
+
 def test_a_position_that_goes_its_own_way_is_no_rule(tmp_path: Path, say: Say) -> None:
     cycles(tmp_path, state=False, shift=5)
     say("init", tmp_path)

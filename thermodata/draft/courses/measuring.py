@@ -4,6 +4,7 @@ feeds, or a state says so, as with a spindle that meets its probes once a cycle.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,17 +12,29 @@ from thermodata.calibration.quality.stays import BAND, stays_at_extreme
 from thermodata.draft.courses.beside import Beside, beside
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.times.clocks import Named
+from thermodata.draft.words.listed import says
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.switches import MEASURES
 from thermodata.plugin import Bool1D, Float1D
 
 _LEAST = 0.02  # of the samples out of range, and in it
 _AGREES = 0.99  # of the samples
 _FEWEST = 50
 _SURE = 0.5  # of the samples, at least
-_MOST_FEEDS = 6
+_MOST_FEEDS, _MOST_LEVELS = 6, 8
+_EXACTLY = "exactly then the probes are in range"
 
 
-def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
-    """`measuring:` of a test; None where the probes stay in range, or nothing moves with them.
+@dataclass(frozen=True, slots=True)
+class Measuring:
+    """`measuring:` of a test. why: as its comment says it."""
+
+    when: str
+    why: str
+
+
+def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> Measuring | None:
+    """When a test measures; None where the probes stay in range, or nothing moves with them.
 
     named: id of a file -> (stream, signal) -> (quantity, place, channel).
     """
@@ -35,7 +48,9 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
             for signals in beside(files, named, file, course.t_ns):
                 for way in (_by_state, _by_position, _by_feed, _by_feeds):
                     if (found := way(signals, out)) is not None:
-                        return found
+                        return Measuring(found, _EXACTLY)
+                if (found := _by_named_state(signals, out)) is not None:
+                    return Measuring(found, "by its name, and no probe is out of range then")
     return None
 
 
@@ -70,8 +85,21 @@ def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
     for one in signals:
         if one.quantity != "state":
             continue
-        for level in np.unique(one.before[np.isfinite(one.before)])[:8]:
+        for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS]:
             if _agree(one, lambda x, level=level: x == level, ~out):  # type: ignore[misc]
+                return f"{one.channel} == {level:g}"
+    return None
+
+
+def _by_named_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    """A state that by its name says when is measured: on its way to the rest a probe may be in range as well."""
+    for one in signals:
+        if one.quantity != "state" or not says(MEASURES, words(one.channel)):
+            continue
+        for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS][::-1]:
+            holds, sure = one.told(lambda x, level=level: x == level)  # type: ignore[misc]
+            measures, gone = holds & sure, out & sure
+            if measures.mean() > _LEAST and not measures[out].any() and gone.sum() > _SURE * out.sum():
                 return f"{one.channel} == {level:g}"
     return None
 
