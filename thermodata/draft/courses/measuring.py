@@ -9,9 +9,9 @@ from itertools import combinations
 
 import numpy as np
 
-from thermodata.calibration.quality.stays import BAND, stays_at_extreme
 from thermodata.draft.courses.beside import Beside, beside
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.probes.out_of_range import LEAST, out_of_range
 from thermodata.draft.times.clocks import Named
 from thermodata.draft.times.one_clock import OneClock
 from thermodata.draft.words.listed import says
@@ -19,9 +19,7 @@ from thermodata.draft.words.naming import words
 from thermodata.draft.words.switches import MEASURES
 from thermodata.plugin import Bool1D, Float1D
 
-_LEAST = 0.02  # of the samples out of range, and in it
 _AGREES = 0.99  # of the samples
-_FEWEST = 50
 _SURE = 0.5  # of the samples, at least
 _TOLD, _HOLDS = 0.2, 0.9  # of those in range: of which the rule says something, and of these where it holds
 _MOST_FEEDS, _MOST_LEVELS = 6, 8
@@ -46,7 +44,7 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named], clocks: Mappin
         names = named.get(id(file), {})
         for key, course in file.sample.courses.items():
             quantity, place, _ = names.get(key, ("", None, ""))
-            out = _out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
+            out = out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
             if out is None:
                 continue
             for signals in beside(files, named, file, course.t_ns, clocks):
@@ -56,33 +54,6 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named], clocks: Mappin
                 if (found := _by_named_state(signals, out)) is not None:
                     return Measuring(found, "by its name, and no probe is out of range then")
     return None
-
-
-def _out_of_range(x: Float1D) -> Bool1D | None:
-    """Where a probe has no reading, or stands at an end of its range; None where it does so never, or nearly always."""
-    none = ~np.isfinite(x)
-    out = none.copy()
-    fine = x[~none]
-    if x.size < _FEWEST or not fine.size:
-        return None
-    span = float(np.ptp(fine))
-    noisy = stays_at_extreme(fine)
-    if noisy is not None:
-        out |= ~none & (np.abs(x - noisy[0]) <= BAND * noisy[1])
-    rails: list[tuple[float, Bool1D]] = []
-    for end in (float(fine.min()), float(fine.max())):
-        at_end = ~none & (np.abs(x - end) <= 1e-3 * span)
-        rest = fine[np.abs(fine - end) > 1e-3 * span]
-        # a rail is one reading again and again, and far from all others
-        if rest.size and at_end.mean() > _LEAST and np.abs(rest - end).min() > 0.2 * span:
-            rails.append((np.unique(x[at_end]).size / at_end.sum(), at_end))
-    # a machine at rest stays near one reading too, beside a rail: the rail is the end that repeats it more exactly
-    rails.sort(key=lambda rail: rail[0])
-    if len(rails) == 2 and rails[0][1].sum() + rails[1][1].sum() == fine.size and rails[0][0] < rails[1][0]:
-        rails.pop()
-    for _, at_end in rails:
-        out |= at_end
-    return out if _LEAST < out.mean() < 1 - _LEAST else None
 
 
 def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
@@ -103,7 +74,7 @@ def _by_named_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
         for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS][::-1]:
             holds, sure = one.told(lambda x, level=level: x == level)  # type: ignore[misc]
             measures, gone = holds & sure, out & sure
-            if measures.mean() > _LEAST and not measures[out].any() and gone.sum() > _SURE * out.sum():
+            if measures.mean() > LEAST and not measures[out].any() and gone.sum() > _SURE * out.sum():
                 return f"{one.channel} == {level:g}"
     return None
 
