@@ -137,6 +137,20 @@ def test_sniff_says_what_a_foreign_file_is(say: Say, tmp_path: Path, content: by
     assert json.loads(say("sniff", tmp_path / "x.bin", "--json").out)[0]["kind"].startswith(kind)
 
 
+def test_preview_flags_the_end_of_a_probe_as_an_ingest_does(say: Say, tmp_path: Path) -> None:
+    """Between two visits to its probe a machine takes it to its rail, for minutes and in its converter's noise."""
+    rng = np.random.default_rng(4)
+    n = 1500
+    here = np.arange(n) % 30 < 4
+    volts = np.where(here, 5 + np.arange(n) / 5000 + rng.normal(0, 0.002, n), 9.998 + rng.normal(0, 4e-4, n))
+    rows = [f"{10 * i},{x:.6f},{20 + i / 1000:.3f}" for i, x in enumerate(volts)]
+    (tmp_path / "work.csv").write_text("\n".join(["t [s],Probe Z [V],T bed [degC]", *rows, ""]), "utf-8")
+    stream = json.loads(say("preview", tmp_path / "work.csv", "--json").out)["streams"][0]
+    probe = next(s for s in stream["signals"] if s["name"].startswith("Probe Z"))
+    assert probe["flags"] == {"saturated": int((~here).sum())}
+    assert {e["flag"] for e in stream["events"]} == {"saturated"}
+
+
 def test_preview_shows_rate_gaps_courses_and_flags(say: Say, tmp_path: Path) -> None:
     found = json.loads(say("preview", csv(tmp_path / "a.csv", gap=True), "--rows", 3, "--json").out)
     stream = found["streams"][0]

@@ -52,3 +52,32 @@ def test_steps_of_the_last_digit_or_of_little_are_no_jump_test(
     text(tmp_path / "W01.csv", ["t [s]", "Z [V]", "n [rpm]"], columns, mark=",")
     (test,) = draft_files(tmp_path).draft.tests
     assert any(d.startswith("window: 'Z") for d in test.doubts) is asked
+
+
+@pytest.mark.parametrize("noise", [0.0, 4e-4])
+@pytest.mark.parametrize("jumps", [False, True])
+def test_a_probe_that_goes_to_its_rail_and_back_is_in_no_jump_test(tmp_path: Path, noise: float, jumps: bool) -> None:
+    """jumps: it begins with a jump test, before the machine goes to and fro."""
+    rng = np.random.default_rng(3)
+    t = np.arange(2900) * 10.0
+    volts = 5 + 0.3 * (1 - np.exp(-np.maximum(t - 1800, 0) / 9000)) + rng.normal(0, 0.002, t.size)
+    volts += np.where(jumps & (t > 150) & (t < 300), 2.0, 0.0)
+    away = (t > 860) & (t % 300 > 40) & (t < 26_000)
+    volts = np.where(away, 9.998 + noise * rng.normal(size=t.size), volts)
+    columns = [numbers(t, 0), numbers(volts, 5), numbers(np.where(t > 1800, 6000.0, 0.0), 0)]
+    text(tmp_path / "W01.csv", ["t [s]", "Z [V]", "n [rpm]"], columns, mark=",")
+    (test,) = draft_files(tmp_path).draft.tests
+    asked = [d for d in test.doubts if d.startswith("window: 'Z")]
+    assert bool(asked) is jumps
+    assert not jumps or "in the first 3" in asked[0]
+
+
+def test_readings_that_are_missing_are_no_rail(tmp_path: Path) -> None:
+    t = np.arange(2900) * 10.0
+    volts = 5 + 0.3 * (1 - np.exp(-np.maximum(t - 1800, 0) / 9000)) + np.random.default_rng(3).normal(0, 0.002, t.size)
+    volts += np.where((t > 150) & (t < 300), 2.0, 0.0)
+    cells = ["" if k % 20 == 3 else cell for k, cell in enumerate(numbers(volts, 5))]
+    columns = [numbers(t, 0), cells, numbers(np.where(t > 1800, 6000.0, 0.0), 0)]
+    text(tmp_path / "W01.csv", ["t [s]", "Z [V]", "n [rpm]"], columns, mark=",")
+    (test,) = draft_files(tmp_path).draft.tests
+    assert any(d.startswith("window: 'Z") for d in test.doubts)

@@ -76,6 +76,36 @@ def test_a_state_that_goes_with_the_range_is_a_rule(tmp_path: Path, say: Say) ->
     assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == "probing_active == 1"
 
 
+@pytest.mark.parametrize(
+    ("name", "passes", "early", "ruled"),
+    [
+        ("AtProbe", 0, 0, True),  # a switch by its values alone
+        ("AtProbe", 2, 0, True),  # the probe is in range on the way there and back as well
+        ("Valve 7", 0, 0, True),
+        ("Valve 7", 2, 0, False),
+        ("AtProbe", 0, 2, False),  # it says so before the probe is in range
+    ],
+)
+def test_a_switch_by_its_values_or_its_name_is_a_rule(
+    name: str, passes: int, early: int, ruled: bool, tmp_path: Path, say: Say
+) -> None:
+    """passes: rows before and behind a measurement in which the probe is in range; early: rows of out of range in which
+    the switch is on."""
+    n = 720
+    t = np.arange(n) * 10.0
+    row = np.arange(n) % 72
+    growth = 40 * (1 - np.exp(-t / 2000)) + np.random.default_rng(1).normal(0, 0.2, n)
+    shown = [f"{g:.2f}" if 20 - passes <= r < 32 + passes else "500.00" for g, r in zip(growth, row, strict=True)]
+    on = [f"{int(20 - early <= r < 32)}" for r in row]
+    columns = [numbers(t, 0), shown, on, numbers(20 + t / 3000, 2)]
+    text(tmp_path / "work.csv", ["t [s]", "W_Z [um]", name, "T nut Z [degC]"], columns, mark=",")
+    say("init", tmp_path)
+    rule = f"{name.replace(' ', '_')} == 1"
+    assert load_campaign(tmp_path / "campaign.yaml").tests[0].measuring == (rule if ruled else None)
+    by_name = "measuring guess: by its name, and no probe is out of range then"
+    assert (by_name in (tmp_path / "campaign.yaml").read_text("utf-8")) is (ruled and bool(passes))
+
+
 def test_a_position_that_goes_its_own_way_is_no_rule(tmp_path: Path, say: Say) -> None:
     cycles(tmp_path, state=False, shift=5)
     say("init", tmp_path)
@@ -127,3 +157,45 @@ def test_feeds_in_the_log_of_another_source_are_a_rule(late_s: int, ruled: bool,
     names = [c for c in campaign.channels if c.startswith(("feed", "speed"))]
     expected = {"X40": "feed_X == 0", "mix": " and ".join(f"{n} == 0" for n in names)}
     assert rules == (expected if ruled else dict.fromkeys(expected))
+
+
+def by_one_speed(folder: Path, *, late_s: int, logged: tuple[str, ...], passes: bool = False) -> None:
+    """Probes at 500 um between visits of 40 s to them, and a control by a clock of its own that logs the same spindle.
+    logged: its columns beside; passes: each axis stands at its own point at other times too, no two of them at once."""
+    rng = np.random.default_rng(8)
+    n = 2880
+    row = np.arange(n) % 60
+    here = row < 4
+    starts = np.searchsorted([300, 470, 900, 1020, 1500, 1730, 2300, 2420], np.arange(n), side="right")
+    speed = np.array([0, 3000, 0, 5200, 0, 4100, 0, 6000, 0])[starts]
+    shown = np.where(here, 20 + np.arange(n) / 300 + rng.normal(0, 0.2, n), 500.0)
+    times = np.datetime64("2026-03-04T06:25:00") + np.arange(n) * np.timedelta64(10, "s")
+    columns = [[f"{t}Z" for t in times], numbers(shown, 3), numbers(speed + rng.normal(0, 1, n), 0)]
+    text(folder / "daq" / "work.csv", ["time", "Probe Z [um]", "tacho [1/min]"], columns, mark=",")
+    away = {axis: ~here & ~(passes & (row // 12 == k + 1)) for k, axis in enumerate("XYZ")}
+    course = {f"pos {axis} [mm]": np.where(away[axis], 300 + 40 * np.sin(np.arange(n) / 3), 200) for axis in "XYZ"}
+    course |= {"feed X [mm/min]": np.where(here, 0, 8000)}
+    clock = [str(t + np.timedelta64(late_s, "s")).replace("T", " ") for t in times]
+    columns = [clock, numbers(speed, 0), *(numbers(course[name], 2) for name in logged)]
+    text(folder / "nc" / "work.csv", ["time", "spindle speed [1/min]", *logged], columns, mark=",")
+
+
+@pytest.mark.parametrize(
+    ("logged", "passes", "parts"),
+    [
+        (("feed X [mm/min]",), False, ("feed_X == 0",)),
+        (("pos X [mm]",), False, ("abs(pos_X - 200) < ",)),
+        (("pos X [mm]", "pos Y [mm]"), True, ("abs(pos_X - 200) < ", "abs(pos_Y - 200) < ")),
+        (("pos X [mm]",), True, ()),
+    ],
+)
+@pytest.mark.parametrize("late_s", [0, -468, 3600 + 293])
+def test_a_control_whose_clock_is_guessed_has_a_rule(
+    logged: tuple[str, ...], passes: bool, parts: tuple[str, ...], late_s: int, tmp_path: Path, say: Say
+) -> None:
+    by_one_speed(tmp_path, late_s=late_s, logged=logged, passes=passes)
+    say("init", tmp_path)
+    rule = load_campaign(tmp_path / "campaign.yaml").tests[0].measuring
+    found = str(rule).split(" and ") if rule else []
+    assert len(found) == len(parts)
+    assert all(one.startswith(part) for one, part in zip(found, parts, strict=True))

@@ -303,6 +303,30 @@ def test_a_dial_gauge_measures_a_displacement(name: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "at"),
+    [
+        ("Hall high [C]", "hall.top"),
+        ("Hall air high", "hall.top"),
+        ("Halle hoch", "hall.top"),
+        ("Raumluft oben", "hall.top"),
+        ("Hala nahoře", "hall.top"),
+        ("Hala vysoko", "hall.top"),
+        ("Ambiente alto", "hall.top"),
+        ("Aria sopra", "hall.top"),
+        ("Hall air low", "hall.bottom"),
+        ("Halle tief", "hall.bottom"),
+        ("Hala nízko", "hall.bottom"),
+        ("Column high", "column.top"),
+        ("Halle 1,5 m hoch", "hall"),  # how high, and that at the machine
+        ("Hall high speed door", "hall.door"),
+        ("Coolant high pressure", "coolant"),
+    ],
+)
+def test_high_and_low_are_ends_of_a_gradient(name: str, at: str) -> None:
+    assert guess(name, "°C").at == at
+
+
+@pytest.mark.parametrize(
     ("name", "at"), [("Temp Vorlauf Spindelkühler", "chiller"), ("摆头冷却机出水温度", "chiller"), ("Luft 8 m", "hall")]
 )
 def test_a_cooler_is_none_of_what_it_cools_and_a_height_is_asked(name: str, at: str) -> None:

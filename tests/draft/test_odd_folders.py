@@ -208,6 +208,20 @@ def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: 
     assert "in place of" not in again.err
 
 
+def test_a_first_model_names_the_channels_of_two_probes_along_one_axis(tmp_path: Path, say: Say) -> None:
+    """An axis and a place alone would be refused as the response: both are along Y at the tool."""
+    rows = [f"{10 * i},{0.1 * i:.2f},{0.05 * i:.2f},{0.09 * i:.2f},{20 + 0.02 * i:.2f}" for i in range(100)]
+    header = "Time [s],Displ. Y1 [um],Displ. Z [um],Displ. Y2 [um],Front bearing [degC]"
+    (tmp_path / "warm.csv").write_text("\n".join([header, *rows]) + "\n")
+    say("init", tmp_path)
+    model = tmp_path / "model.yaml"
+    too = "measured too: Y by {channel: Displ_Y1} or {channel: Displ_Y2}\n"
+    assert f"response: {{axis: Z, at: tcp}}   # {too}" in model.read_text("utf-8")
+    assert say("first-model", tmp_path / "campaign.yaml", "--response", "Displ_Y2").code == 0
+    too = "measured too: Z, Y by {channel: Displ_Y1}\n"
+    assert f"response: {{channel: Displ_Y2}}   # {too}" in model.read_text("utf-8")
+
+
 @pytest.mark.parametrize(
     ("nut", "line"), [("X", "# on another axis than the response's, Z: feed_screw (Nut_X"), ("Z", "")]
 )

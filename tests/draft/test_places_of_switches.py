@@ -25,6 +25,7 @@ ON_OFF = values_of(np.tile([0.0, 0.0, 1.0, 1.0], 20))
         ("spindle_alarm", "spindle"),
         ("State", None),
         ("Alarm aktiv", None),
+        ("AtProbe", None),  # it switches nothing
     ],
 )
 def test_a_switch_stands_where_its_name_says(name: str, at: str | None) -> None:

@@ -53,3 +53,24 @@ def test_the_cause_is_told_of_times_of_day_without_dates(
     assert f"goes back by {by}" in asked
     assert cause in asked
     assert ("resets: allow" in asked) is (cause == "was the clock set back")
+
+
+def test_of_a_log_that_all_tests_share_no_test_is_split(tmp_path: Path) -> None:
+    """Two recordings of the hall, the second an hour before the end of the first, one behind the other."""
+    begin = datetime(2026, 3, 3, 8)
+    for k, test in enumerate(("a", "b")):
+        times = [begin + timedelta(hours=5 * k, minutes=i) for i in range(240)]
+        rows = [f"{t:%Y-%m-%d %H:%M:%S},{20 + i / 100:.2f}" for i, t in enumerate(times)]
+        (tmp_path / f"{test}.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]))
+    minutes = [*((m, 18.0) for m in range(-30, 330)), *((m, 18.1) for m in range(270, 600))]
+    rows = [f"{begin + timedelta(minutes=m):%Y-%m-%d %H:%M:%S},{level + m / 200:.3f}" for m, level in minutes]
+    (tmp_path / "hall.csv").write_text("\n".join(["time,Hall [degC]", *rows, ""]))
+    sources = draft_files(tmp_path).draft.sources
+    (asked,) = [q for s in sources for q in s.questions if "goes back" in q]
+    losses = [x["reason"] for x in ingest(Store(tmp_path / "s", create=True), tmp_path / "campaign.yaml").losses]
+    lost = [x for x in losses if "clock goes backwards by 59 min" in x]
+    assert lost
+    for said in (asked, *lost):
+        assert "all tests share this log" in said
+        assert "sort its rows by their time" in said
+        assert "split the test" not in said

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.concise import concise
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.flags import flag_stream
+from thermodata.calibration.quality.range import ends_of_ranges
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
@@ -21,6 +23,8 @@ from thermodata.reader.finding.seen import when
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical, linear_conversion
+from thermodata.store.tidy.flags.between import HELD
+from thermodata.store.tidy.flags.readings import reading_with
 
 _MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
 _MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond
@@ -147,10 +151,34 @@ def flagged(
         if seen is not None and not seen.numerals:
             values = _canonical(column, quantity, unit)
             inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
-    flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])
+    flags, events = _flag(t_ns, inputs) if t_ns.size and inputs else ({}, [])
     for name, column in flags.items():
         told[name]["flags"] = {f.word: n for f in Flag if f and (n := int(((column & np.uint16(f)) != 0).sum()))}
     return told, [_event(e, absolute) for e in concise(events)[:_MOST_EVENTS]]
+
+
+@dataclass(frozen=True, slots=True)
+class _AsFlagged:
+    """values, flags: shape (n,)."""
+
+    values: Array
+    flags: Array
+
+
+def _flag(t_ns: Int1D, inputs: Mapping[str, ColumnInput]) -> tuple[dict[str, Array], list[QualityEvent]]:
+    """As an ingest flags a test: where a range ends all of it tells, and then the stream is flagged anew."""
+    flags, events = flag_stream(t_ns, inputs)
+    t_s = (t_ns - t_ns[0]) / 1e9
+    readings = {
+        ("", name): reading_with(None, _AsFlagged(one.values, flags[name]), t_s)
+        for name, one in inputs.items()
+        if one.quantity in HELD and one.is_float
+    }
+    limits = ends_of_ranges(readings)
+    if not limits:
+        return flags, events
+    ended = {name: replace(one, limits=limits.get(("", name), one.limits)) for name, one in inputs.items()}
+    return flag_stream(t_ns, ended)
 
 
 def _meant_by(meant: Meant | None, signals: list[Signal]) -> dict[str, tuple[str, str | None, str | None]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from thermodata.draft.campaign.parts import DraftTest
 from thermodata.draft.courses.kinds import Kind, kind_of
-from thermodata.draft.courses.measuring import rule_of
+from thermodata.draft.courses.measuring import Measuring, rule_of
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.beside.listed_times import ListedTime
@@ -21,7 +21,8 @@ from thermodata.draft.probes.end_of_range import range_questions
 from thermodata.draft.probes.jump_within import window_behind_jumps
 from thermodata.draft.times.beside_list import not_as_listed, start_listed
 from thermodata.draft.times.block_windows import window_question
-from thermodata.draft.times.clocks import Named
+from thermodata.draft.times.clocks import Alignment, Named
+from thermodata.draft.times.one_clock import on_one_clock
 from thermodata.draft.words.roles import said_by_list
 
 
@@ -45,12 +46,16 @@ def drafted_tests(
     table: TestTable | None,
     keyed: Mapping[str, Named],
     texts: Sequence[str],
+    aligned: Mapping[str, Alignment],
 ) -> tuple[DraftTest, ...]:
     """All tests of a folder. keyed: source -> its channels, by (stream, signal) of the files; texts: files that may
-    say what tests are."""
+    say what tests are; aligned: source -> what is guessed of its clock."""
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
-    named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
+    sources = {id(f): g.source for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
+    named = {file: keyed[source] for file, source in sources.items()}
+    of_sources = on_one_clock(keyed, aligned)
+    clocks = {file: of_sources[source] for file, source in sources.items()}
     rows, times = (table.rows, table.times) if table else ({}, {})
     notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
     warm = warm_starts(recordings, named)
@@ -60,11 +65,11 @@ def drafted_tests(
         t: _Beside(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), otherwise.get(t, ()))
         for t in ids
     }
-    return tuple(_drafted(t, recordings[t], groups, named, beside[t]) for t in ids)
+    return tuple(_drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t]) for t in ids)
 
 
 def _drafted(
-    test: str, files: Sequence[RawFile], groups: Sequence[Group], named: Mapping[int, Named], beside: _Beside
+    test: str, files: Sequence[RawFile], groups: Sequence[Group], measuring: Measuring | None, beside: _Beside
 ) -> DraftTest:
     listed, version = beside.listed, beside.version
     kind = kind_of(test, files, listed)
@@ -93,7 +98,7 @@ def _drafted(
     if window is None and (jumps := window_behind_jumps(files)) is not None:
         doubts.append(jumps)
     doubts += range_questions(files)
-    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
+    return DraftTest(test, kind, conditions, own, tuple(doubts), measuring, window)
 
 
 def _with_note(kind: Kind, conditions: Mapping[str, str], note: Note) -> tuple[Kind, dict[str, str], list[str]]:

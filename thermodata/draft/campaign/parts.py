@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.draft.courses.kinds import Kind
+from thermodata.draft.courses.measuring import Measuring
 from thermodata.draft.folder.beside.table import TestTable
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.times.clocks import Alignment
@@ -86,7 +87,7 @@ class DraftTest:
     conditions: dict[str, str]
     files: dict[str, str | list[str]]
     doubts: tuple[str, ...] = ()
-    measuring: str | None = None
+    measuring: Measuring | None = None
     window: tuple[float, float] | None = None
 
 

@@ -58,7 +58,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        drafted_tests(folder, groups, table, keyed, sorted_out.texts),
+        drafted_tests(folder, groups, table, keyed, sorted_out.texts, aligned),
         table,
         left_out,
         found.damaged,

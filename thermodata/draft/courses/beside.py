@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.times.clocks import Named
+from thermodata.draft.times.one_clock import OneClock
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 _HALF_HOUR_NS = 1_800_000_000_000
 _ZONES = 28  # half hours that a zone may be from UTC, and more
 _COVERED = 0.9  # of the probe's rows, by a log of another source
+_NO_CLOCKS: Mapping[int, OneClock] = MappingProxyType({})
 _PAUSE = 3.0  # times its usual step, and a log of another source stood between two rows: it is written on change
 
 
@@ -38,19 +41,28 @@ class Beside:
 
 
 def beside(
-    files: Sequence[RawFile], named: Mapping[int, Named], home: RawFile, t_ns: Int1D
+    files: Sequence[RawFile],
+    named: Mapping[int, Named],
+    home: RawFile,
+    t_ns: Int1D,
+    clocks: Mapping[int, OneClock] = _NO_CLOCKS,
 ) -> Iterator[tuple[Beside, ...]]:
-    """The signals of a probe's own file at its times t_ns, shape (n,); then with those of the files of other sources,
-    whose local times may be off by whole half hours. Nothing of what is not dated or does not run beside it."""
+    """The signals of a probe's own file at its times t_ns, shape (n,); then with those of the files of other sources:
+    by what is guessed of their clocks, then as if their local times were off by whole half hours. Nothing of what is
+    not dated or does not run beside it. clocks: id of a file -> its clock."""
     own = _of(home, named.get(id(home), {}), t_ns, False)
     yield own
     dated = [f for f in files if f is not home and f.recording.clock == home.recording.clock == "absolute"]
     if not dated or not t_ns.size:
         return
+    here = clocks.get(id(home))
+    guessed = {id(f): here.to(there) for f in dated if here and (there := clocks.get(id(f)))}
     local = home.local or any(f.local for f in dated)
-    for half_hours in sorted(range(-_ZONES, _ZONES + 1), key=abs) if local else (0,):
-        at = t_ns + half_hours * _HALF_HOUR_NS
-        if others := [b for f in dated for b in _of(f, named.get(id(f), {}), at, True)]:
+    half_hours = sorted(range(-_ZONES, _ZONES + 1), key=abs) if local else (0,)
+    plain = [dict.fromkeys(map(id, dated), k * _HALF_HOUR_NS) for k in half_hours]
+    told = {key: shift for key, shift in guessed.items() if shift is not None}
+    for shifts in [*([{**plain[0], **told}] if told else []), *plain]:
+        if others := [b for f in dated for b in _of(f, named.get(id(f), {}), t_ns + shifts[id(f)], True)]:
             yield (*own, *others)
 
 

@@ -4,95 +4,123 @@ feeds, or a state says so, as with a spindle that meets its probes once a cycle.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
-from thermodata.calibration.quality.stays import BAND, stays_at_extreme
 from thermodata.draft.courses.beside import Beside, beside
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.probes.out_of_range import LEAST, out_of_range
 from thermodata.draft.times.clocks import Named
+from thermodata.draft.times.one_clock import OneClock
+from thermodata.draft.words.listed import says
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.switches import MEASURES
 from thermodata.plugin import Bool1D, Float1D
 
-_LEAST = 0.02  # of the samples out of range, and in it
 _AGREES = 0.99  # of the samples
-_FEWEST = 50
 _SURE = 0.5  # of the samples, at least
-_MOST_FEEDS = 6
+_TOLD, _HOLDS = 0.2, 0.9  # of those in range: of which the rule says something, and of these where it holds
+_MOST_FEEDS, _MOST_LEVELS = 6, 8
+_MOST_AXES, _MOST_POINTS = 3, 6  # of a rule, of those that are tried
+_EXACTLY = "exactly then the probes are in range"
 
 
-def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:
-    """`measuring:` of a test; None where the probes stay in range, or nothing moves with them.
+@dataclass(frozen=True, slots=True)
+class Measuring:
+    """`measuring:` of a test. why: as its comment says it."""
 
-    named: id of a file -> (stream, signal) -> (quantity, place, channel).
+    when: str
+    why: str
+
+
+def rule_of(files: Sequence[RawFile], named: Mapping[int, Named], clocks: Mapping[int, OneClock]) -> Measuring | None:
+    """When a test measures; None where the probes stay in range, or nothing moves with them.
+
+    named: id of a file -> (stream, signal) -> (quantity, place, channel); clocks: id of a file -> its clock.
     """
     for file in files:
         names = named.get(id(file), {})
         for key, course in file.sample.courses.items():
             quantity, place, _ = names.get(key, ("", None, ""))
-            out = _out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
+            out = out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
             if out is None:
                 continue
-            for signals in beside(files, named, file, course.t_ns):
+            for signals in beside(files, named, file, course.t_ns, clocks):
                 for way in (_by_state, _by_position, _by_feed, _by_feeds):
                     if (found := way(signals, out)) is not None:
-                        return found
+                        return Measuring(found, _EXACTLY)
+                if (found := _by_named_state(signals, out)) is not None:
+                    return Measuring(found, "by its name, and no probe is out of range then")
     return None
-
-
-def _out_of_range(x: Float1D) -> Bool1D | None:
-    """Where a probe has no reading, or stands at an end of its range; None where it does so never, or nearly always."""
-    none = ~np.isfinite(x)
-    out = none.copy()
-    fine = x[~none]
-    if x.size < _FEWEST or not fine.size:
-        return None
-    span = float(np.ptp(fine))
-    noisy = stays_at_extreme(fine)
-    if noisy is not None:
-        out |= ~none & (np.abs(x - noisy[0]) <= BAND * noisy[1])
-    rails: list[tuple[float, Bool1D]] = []
-    for end in (float(fine.min()), float(fine.max())):
-        at_end = ~none & (np.abs(x - end) <= 1e-3 * span)
-        rest = fine[np.abs(fine - end) > 1e-3 * span]
-        # a rail is one reading again and again, and far from all others
-        if rest.size and at_end.mean() > _LEAST and np.abs(rest - end).min() > 0.2 * span:
-            rails.append((np.unique(x[at_end]).size / at_end.sum(), at_end))
-    # a machine at rest stays near one reading too, beside a rail: the rail is the end that repeats it more exactly
-    rails.sort(key=lambda rail: rail[0])
-    if len(rails) == 2 and rails[0][1].sum() + rails[1][1].sum() == fine.size and rails[0][0] < rails[1][0]:
-        rails.pop()
-    for _, at_end in rails:
-        out |= at_end
-    return out if _LEAST < out.mean() < 1 - _LEAST else None
 
 
 def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
     for one in signals:
         if one.quantity != "state":
             continue
-        for level in np.unique(one.before[np.isfinite(one.before)])[:8]:
+        for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS]:
             if _agree(one, lambda x, level=level: x == level, ~out):  # type: ignore[misc]
                 return f"{one.channel} == {level:g}"
     return None
 
 
-def _by_position(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_named_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    """A state that by its name says when is measured: on its way to the rest a probe may be in range as well."""
     for one in signals:
-        if one.quantity != "position" or one.elsewhere:  # between two rows of another log it may pass anywhere
+        if one.quantity != "state" or not says(MEASURES, words(one.channel)):
             continue
-        x = one.before
-        inside, beyond = x[~out & np.isfinite(x)], x[out & np.isfinite(x)]
-        if not inside.size or not beyond.size:
-            continue
-        middle = float(np.median(inside))
-        near = float(np.quantile(np.abs(inside - middle), 0.995))
-        far = float(np.quantile(np.abs(beyond - middle), 0.01))
-        if far <= 2 * near or far <= 0:
-            continue
-        limit = float(f"{np.sqrt(max(near, 1e-3 * far) * far):.2g}")
-        if _agree(one, lambda x, middle=middle, limit=limit: np.abs(x - middle) < limit, ~out):  # type: ignore[misc]
-            return f"abs({one.channel} - {middle:.6g}) < {limit:g}"
+        for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS][::-1]:
+            holds, sure = one.told(lambda x, level=level: x == level)  # type: ignore[misc]
+            measures, gone = holds & sure, out & sure
+            if measures.mean() > LEAST and not measures[out].any() and gone.sum() > _SURE * out.sum():
+                return f"{one.channel} == {level:g}"
     return None
+
+
+def _by_position(signals: Sequence[Beside], out: Bool1D) -> str | None:
+    """An axis at a point, or several at once where each passes there by itself."""
+    points = [p for b in signals if b.quantity == "position" and (p := _point(b, out)) is not None]
+    for many in range(1, 1 + min(len(points), _MOST_AXES)):
+        for some in combinations(points[:_MOST_POINTS], many):
+            before, after = _farthest([p.before for p in some]), _farthest([p.after for p in some])
+            known = np.isfinite(before + after)
+            if not (known & ~out).any() or not (known & out).any():
+                continue
+            near = float(np.quantile(np.minimum(before, after)[known & ~out], 0.995))
+            far = float(np.quantile(np.maximum(before, after)[known & out], 0.01))
+            if far <= 2 * near or far <= 0:
+                continue
+            limit = float(f"{np.sqrt(max(near, 1e-3 * far) * far):.2g}")
+            # a row of another log on either side: between them it may pass anywhere
+            if _agrees(before < limit, (before < limit) == (after < limit), ~out):
+                return " and ".join(f"abs({p.channel} - {p.middle:.6g}) < {limit:g}" for p in some)
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Point:
+    """Where an axis stands while the probes are in range. before, after: how far it is from there, shape (n,)."""
+
+    channel: str
+    middle: float
+    before: Float1D
+    after: Float1D
+
+
+def _point(one: Beside, out: Bool1D) -> _Point | None:
+    moves = np.abs(one.after - one.before)
+    known = ~out & np.isfinite(moves)
+    if not known.any():
+        return None
+    # the rows of another log about the first reading in range are of the way there
+    middle = float(np.median(one.before[known & (moves <= np.median(moves[known]))]))
+    return _Point(one.channel, middle, np.abs(one.before - middle), np.abs(one.after - middle))
+
+
+def _farthest(distances: Sequence[Float1D]) -> Float1D:
+    return np.asarray(np.max(distances, axis=0))
 
 
 def _by_feed(signals: Sequence[Beside], out: Bool1D) -> str | None:
@@ -125,5 +153,16 @@ def _stands(x: Float1D) -> Bool1D:
 
 
 def _agree(one: Beside, rule: Callable[[Float1D], Bool1D], measured: Bool1D) -> bool:
-    holds, sure = one.told(rule)
-    return bool(sure.mean() >= _SURE and (holds == measured)[sure].mean() >= _AGREES)
+    return _agrees(*one.told(rule), measured)
+
+
+def _agrees(holds: Bool1D, sure: Bool1D, measured: Bool1D) -> bool:
+    """Whether a rule says what the range does, of what is measured too: that may be little of the whole."""
+    right = (holds == measured) & sure
+    there = sure & measured
+    return bool(
+        sure.mean() >= _SURE
+        and right.sum() >= _AGREES * sure.sum()
+        and there.sum() >= _TOLD * measured.sum()
+        and right[measured].sum() >= _HOLDS * there.sum()
+    )

@@ -12,7 +12,6 @@ import numpy as np
 from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of, notes_of
 from thermodata.draft.signals.guess import guess_of, says_nothing
 from thermodata.draft.signals.numerals import bare_word
-from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import Values, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
@@ -23,7 +22,7 @@ SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
-_COURSE_IF_ROOM = ("power",)
+_COURSE_IF_ROOM = ("power", None)  # None: what no name says its values may, as of a switch
 _MOST_COURSES = 40
 
 
@@ -124,9 +123,10 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     finally:
         items.close()  # type: ignore[attr-defined]
     first, last = extent_of(clocks) or (first, last)
+    told = {(s.stream, s.name) for s in recording.signals if _tells(s, values.get((s.stream, s.name)))}
     return Sample(
         values,
-        {k: _thinned(v) for k, v in parts.items()},
+        {k: _thinned(v) for k, v in parts.items() if k in told},
         whole,
         hurried,
         first,
@@ -149,16 +149,24 @@ def short(error: Exception) -> str:
 
 
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
-    """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
-    found: list[tuple[str, str]] = []
-    others: list[tuple[str, str]] = []
+    """The signals whose course is kept: what tells the kind of a test, a jump, a clock, or when it measures."""
+    found: list[tuple[int, tuple[str, str]]] = []
     for signal in signals:
-        said: Guess = guess_of(signal)
+        quantity = guess_of(signal).quantity
+        if signal.dtype == "str" or quantity not in (*_COURSE, *_COURSE_IF_ROOM):
+            continue
+        rank = 0 if quantity in _COURSE else 1 + _COURSE_IF_ROOM.index(quantity)
         # what a bare 'value' is, its file's name may say
-        unsaid = said.quantity is None and says_nothing(signal.name)
-        if (unsaid or said.quantity in (*_COURSE, *_COURSE_IF_ROOM)) and signal.dtype != "str":
-            (found if said.quantity in _COURSE else others).append((signal.stream, signal.name))
-    return set((found + others)[:_MOST_COURSES])
+        rank -= quantity is None and says_nothing(signal.name)
+        found.append((rank, (signal.stream, signal.name)))
+    found.sort(key=lambda one: one[0])
+    return {key for _, key in found[:_MOST_COURSES]}
+
+
+def _tells(signal: Signal, values: Values | None) -> bool:
+    """Whether a course is kept to the end: of what neither its name nor its values say, only that of a bare 'value'."""
+    said = guess_of(signal)
+    return said.quantity is not None or says_nothing(signal.name) or guess_of(signal, values).quantity == "state"
 
 
 def _take(

@@ -11,6 +11,7 @@ from thermodata.calibration.jump.plateaus import Step
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.probes.jumps import staircase
+from thermodata.draft.probes.out_of_range import out_of_range
 from thermodata.draft.signals.guess import guess_of
 from thermodata.plugin import Float1D
 from thermodata.schema.words.sentences import with_count
@@ -65,7 +66,11 @@ def _moved_until(course: Course | None, first_ns: int, until_s: float) -> float 
     """When the last step of a probe ended that went in steps and came back [s]; None of another."""
     if course is None:
         return None
-    early = (course.t_ns - first_ns) / 1e9 < until_s
+    out = out_of_range(course.values)
+    away = np.zeros(0, np.int64) if out is None else np.flatnonzero(out & np.isfinite(course.values))
+    # between visits to its probe a machine takes it to its rail and back, which is no jump test
+    until_ns = float(course.t_ns[away[0]]) if away.size else math.inf
+    early = ((course.t_ns - first_ns) / 1e9 < until_s) & (course.t_ns < until_ns)
     if np.count_nonzero(early) < _LEAST_ROWS:
         return None
     found = staircase(Course(course.t_ns[early], course.values[early]))

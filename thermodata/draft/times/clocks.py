@@ -14,7 +14,7 @@ from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Float1D, Int1D
-from thermodata.reader.times.step_back import OLDER, cause_of, in_words, said
+from thermodata.reader.times.step_back import OLDER, SHARED, cause_of, in_words, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.clocks.repeated_times import MANY
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
@@ -118,7 +118,7 @@ def set_back_question(group: Group) -> str | None:
         absolute = file.recording.clock == "absolute"
         of_day = file.recording.of_day_ns
         cause = cause_of(back.from_ns, back.to_ns, absolute, file.local, of_day, file.recording.notes)
-        asked = OLDER if back.older and absolute else _WAS_SET
+        asked = SHARED if group.shared and absolute else OLDER if back.older and absolute else _WAS_SET
         by = said(back.from_ns, back.to_ns, absolute, file.local, of_day)
         return (
             f"the clock of {file.path.name} goes back by {by} at row {back.row}, and what follows is lost: "

@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+MEASURES = (
+    "probe. probing measuring measures. measure. in~position in~pos inpos. messen messung. misst. messpos messposition "
+    "antasten taster. mereni meri. v~poloze sonda. misura. misurazione in~posizione medicion midiendo en~posicion "
+    "mesure. mesurage en~position medicao pomiar pomiaru 测量 測量 測定 측정 到位 измерен"
+)
+"""Of a state that holds while the probes are where they measure."""
 _WHICH_SWITCH = "at: what does it switch? e.g. coolant, hydraulics, lubrication, hall.door; nothing that warms: no 'at'"
 _ASKED_OF_SWITCHES = {
     "mist": "at: coolant, or lubrication, where the mist is the bearings'?",

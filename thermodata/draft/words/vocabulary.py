@@ -89,10 +89,12 @@ _PLACE_WORDS: dict[str, str] = {
     "rear": "spdl~rb spindle~rb sp~rb "
     "rear back. hinten hinter ^zadni zad. zadn. vzadu. zezadu. zadek. ruckseite rueckseite 后 後 tail. rr. "
     "arriere. post. posteriore.",
-    "upper": "upper top. ^ober oben. obere ^horni nahore nahoru shora. 上 up. haut. haute. alto. alta. superieur "
+    # not of 'high speed', nor of how high something is: 'Halle, 1,5 m hoch'
+    "upper": r"(?<!\S)(?<![0-9]\sm\s)(?:high|hoch|hohe|vysoko|wysoko|hoog)(?!\S)(?!\s(?:speed|press|prec)) "
+    "upper top. ^ober oben. obere ^horni nahore nahoru shora. 上 up. haut. haute. alto. alta. superieur "
     "^superiore",
-    "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. zdola. 下 low. dn. bas. basse. basso. bassa. "
-    "inferieur ^inferiore",
+    "lower": "lower bottom bot. tief. niedrig nizko. nisko. laag. ^unter unten. ^spodni ^dolni dole. zdola. 下 low. "
+    "dn. bas. basse. basso. bassa. inferieur ^inferiore",
     "left": "left links. link. linke levy. leva. leve. levo. vlevo. nalevo. 左 l. sx. sinistr gauche.",
     "right": "right rechts. recht. rechte pravy. prava. prave. pravo. vpravo. napravo. 右 r. dx. destra. destro. "
     "droit. droite.",

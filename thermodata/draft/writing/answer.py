@@ -95,7 +95,7 @@ def _test(test: DraftTest) -> dict[str, Any]:
         "role": "none",
         "conditions": test.conditions,
         "start": test.kind.start,
-        "measuring": test.measuring,
+        "measuring": test.measuring.when if test.measuring else None,
         "files": test.files,
         "sure": test.kind.comment.startswith("sure"),
         "basis": test.kind.comment or None,

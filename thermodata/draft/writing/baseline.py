@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.draft.campaign.parts import Draft
@@ -110,7 +110,7 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
         return None
     alone = _is_tools(channels[chosen]) and sum(_is_tools(c) and c.axis == axis for c in channels.values()) == 1
     wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
-    others = [a for a in axes if a != axis]
+    others = _measured_too(channels, chosen, axes)
     unplaced = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
     text = [
         "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
@@ -126,6 +126,17 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
     if unplaced:
         text.append(f"# ? drive nothing until their place ('at') is answered: {with_count(unplaced, _SHOWN)}")
     return sealed("\n".join([*text, ""]))
+
+
+def _measured_too(channels: Mapping[str, _Known], chosen: str, axes: Sequence[str]) -> list[str]:
+    """The tool's other displacements as a response names them: by the axis alone, where one probe is along it."""
+    found = []
+    for axis in axes:
+        probes = [n for n, c in channels.items() if _is_tools(c) and c.axis == axis]
+        beside = [f"{{{flow({'channel': n})}}}" for n in probes if n != chosen]
+        if beside:
+            found.append(axis if len(probes) == 1 else f"{axis} by {' or '.join(beside)}")
+    return found
 
 
 def _effects(sensors: _Sensors) -> list[str] | None:

@@ -209,7 +209,7 @@ def _test(t: DraftTest) -> str:
     if t.window is not None:
         body += f", window: [{t.window[0]:.12g} s, {t.window[1]:.12g} s]"
     if t.measuring:
-        body += f", measuring: {scalar(t.measuring)}"
+        body += f", measuring: {scalar(t.measuring.when)}"
     if t.conditions:
         body += f", conditions: {{{flow(t.conditions)}}}"
     if t.files:
@@ -223,7 +223,7 @@ def _test_comment(t: DraftTest) -> str:
     asked = [*filter(None, (hint, t.kind.question)), *t.doubts]
     said = f"kind {t.kind.comment}" if t.kind.comment else ""
     if t.measuring:
-        said = "; ".join(filter(None, (said, "measuring guess: exactly then the probes are in range")))
+        said = "; ".join(filter(None, (said, f"measuring guess: {t.measuring.why}")))
     return "; ".join(filter(None, (f"? {'; '.join(asked)}" if asked else "", said)))
 
 

@@ -14,6 +14,11 @@ OLDER = (
     "what follows is older than all before it: a ring buffer with a pause? sort the file by its time; another test? "
     "cut the file there; only where the clock was set back, clock: {resets: allow} joins it"
 )
+# of a log that all tests share: cut there, each part would be looked for in all tests again
+SHARED = (
+    "all tests share this log, and another recording of it begins there? sort its rows by their time; only where the "
+    "clock was set back, clock: {resets: allow} joins them"
+)
 _S, _MIN, _H = 10**9, 60 * 10**9, 3600 * 10**9
 _ROW_NS = 10 * _MIN  # from row to row at most, so that the hour shows at which the clock turned
 _REPEATED = re.compile(rf"{REPEATS} (\S+)Z:")

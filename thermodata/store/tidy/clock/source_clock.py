@@ -99,8 +99,8 @@ def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:
     return Span(a, a, b, plan.test.history == "recording", relative)
 
 
-def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: bool) -> Timeline:
-    """Joins the files of one stream in time order; see `timeline` for how their rows are put in order."""
+def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: bool, shared: bool = False) -> Timeline:
+    """Joins the files of one stream in time order; see `make_timeline` for how their rows are put in order."""
     ordered = sorted(raws, key=lambda r: (_start_of(r) + r.first_ns,))
     notes: list[str] = []
     if (
@@ -125,6 +125,7 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
         suspect=clock.suspect,
         resets_allowed=resets_allowed,
         notes=notes,
+        shared=shared,
     )
 
 

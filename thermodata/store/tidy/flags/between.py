@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from thermodata.store.tidy.values.chunk import Column
 
 _QUANTITIES = ("temperature", "displacement", "tilt", "humidity")
-_HELD = ("displacement", "tilt")
+HELD = ("displacement", "tilt")  # of which a test as a whole tells where their range ends
 _MOST_PAUSES = 20
 # a sensor that is off is seen as it reads: whether a part of the test is foreign shows in all channels alike
 _SEEN = np.uint16(INVALID & ~Flag.OFFSET)
@@ -90,7 +90,7 @@ class Sampler:
         }
         self._off = {name: np.zeros(len(self._rows), dtype=bool) for name in self._points}
         self._flickers = {b.name: Flicker() for b in mine if b.channel.quantity == "temperature"}
-        self._readings: dict[str, Reading | None] = {b.name: None for b in mine if b.channel.quantity in _HELD}
+        self._readings: dict[str, Reading | None] = {b.name: None for b in mine if b.channel.quantity in HELD}
         self._pauses: list[tuple[float, float]] = []
         self._last_s: float | None = None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -12,21 +12,27 @@ from thermodata.calibration.quality.range import LONG_TIMES, plateau_at_extreme
 from thermodata.calibration.quality.stays import stays_at_extreme
 from thermodata.calibration.quality.still import Reading, Shown
 from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
-from thermodata.plugin import Float1D
+from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 
-if TYPE_CHECKING:
-    from thermodata.store.tidy.values.chunk import Column
+
+class FlaggedValues(Protocol):
+    """A channel's values and uint16 flags, shape (n,)."""
+
+    @property
+    def values(self) -> Array: ...
+    @property
+    def flags(self) -> Array: ...
 
 
-def as_read(column: Column) -> Float1D:
+def as_read(column: FlaggedValues) -> Float1D:
     """The values of a channel, NaN where they are none of it. What stands is wanted here: a verdict that flags it must
     come out the same once it is flagged."""
     judged = np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK | Flag.SATURATED))
     return np.where((column.flags & judged) == 0, column.values, np.nan)
 
 
-def reading_with(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
+def reading_with(known: Reading | None, column: FlaggedValues, t_s: Float1D) -> Reading:
     """How a channel reads, from the chunk in which it moves most; and its longest stretch of one value in any."""
     x = as_read(column)
     stats = run_stats(x)

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.reader.times.newest_first import Steps
-from thermodata.reader.times.step_back import OLDER, cause_of, said
+from thermodata.reader.times.step_back import OLDER, SHARED, cause_of, said
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.order import CHUNK_ROWS, Order, by_time, find_order, in_order
@@ -30,10 +30,12 @@ def make_timeline(
     suspect: bool,
     resets_allowed: bool,
     notes: Sequence[str],
+    shared: bool = False,
 ) -> Timeline:
     """Puts the rows of the files of one stream in order.
 
-    raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line.
+    raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line. shared:
+    other tests have the same files.
     Rows that step back by a second at most are sorted in and flagged. What stands in the files twice is left out
     (`repeats`); `clock_faults` says what is done about strays and clocks that were set. What follows a long step back
     is lost with a reason where resets are not allowed.
@@ -52,7 +54,7 @@ def make_timeline(
         line.notes += twice.notes()
         order = find_order(line.file_times, n, resets_allowed=resets_allowed, sound=twice.left())
     if order.keep < n:
-        line.losses = (_lost(line, order, n, resets_allowed),)
+        line.losses = (_lost(line, order, n, resets_allowed, shared),)
     line.notes += order.notes
     line.order, line.rows = order, order.keep
     return line
@@ -80,7 +82,7 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
     return keys
 
 
-def _lost(line: Timeline, order: Order, n: int, resets_allowed: bool) -> Loss:
+def _lost(line: Timeline, order: Order, n: int, resets_allowed: bool, shared: bool) -> Loss:
     keep, steps = order.keep, Steps()
     steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
     at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
@@ -93,6 +95,8 @@ def _lost(line: Timeline, order: Order, n: int, resets_allowed: bool) -> Loss:
         advice = f"behind {times} no time is left for what follows: are these its times? declare their format or column"
     elif (cause := cause_of(before, at, absolute, local, of_day, line.raws[0][0].notes)) is not None:
         advice = cause
+    elif absolute and shared:
+        advice = SHARED
     elif absolute and _latest(line, keep, n) < _earliest(line, keep):
         advice = OLDER
     else:

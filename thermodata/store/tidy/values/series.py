@@ -68,6 +68,7 @@ class TestSeries:
                     source.streams[member[1]],
                     self.clocks[member[0]],
                     resets_allowed=source.spec.clock.resets == "allow",
+                    shared=source.shared and len(self.plan.campaign.tests) > 1,
                 )
                 self._lines[member].parts = source.parts
         return self._lines[member]
