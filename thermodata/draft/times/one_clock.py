@@ -16,7 +16,7 @@ class OneClock:
     shift_ns: int = 0
 
     def to(self, other: OneClock) -> int | None:
-        """What turns times of this source to those of another [ns]; None where nobody knows."""
+        """What turns times of this source to those of another [ns]; None where nobody knows, or they are the same."""
         known = self.of == other.of and self.shift_ns != other.shift_ns
         return self.shift_ns - other.shift_ns if known else None
 
