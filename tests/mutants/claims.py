@@ -128,7 +128,7 @@ MUTANTS = [
         "bool(of.unread)",
         "a fixture silences the air it stands in",
     ),
-    diagnosis("probability.py", "own += PROBABILITY[5]", "own += 0.0", "a fixture is told from the air too soon"),
+    diagnosis("probability.py", "this_part=True", "this_part=False", "a fixture is told from the air too soon"),
     diagnosis("unread.py", "if all(warms_the_holder", "if False and all(warms_the_holder", "coolant is as sure as air"),
     diagnosis("unread.py", "Part(AIR, HOLDER) in known or", "", "a holder that the model has is named beside coolant"),
     diagnosis("unread.py", "or any(reads(channels, place) for", "or any(False for", "a holder with a sensor is named"),
@@ -156,7 +156,9 @@ MUTANTS = [
     diagnosis("other_axes.py", ".holds:", ".holds is None:", "all axes are asked though one is enough"),
     diagnosis("other_axes.py", "and e.acts_on is None", "", "what acts on one axis is fitted to another"),
     diagnosis("other_axes.py", "return not fixed or", "return True or", "a gain of one axis is held on another"),
-    diagnosis("probability.py", " and not of.of_motion", "", "a feed is as sure of the nut as the nut is"),
+    diagnosis(
+        "probability.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"
+    ),
     diagnosis("probability.py", "TOLD_APART = 0.93", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
     diagnosis(
         "probability.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"

@@ -11,9 +11,9 @@ from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
 
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
-# error where it acts, whether it is the air beside something sharper, whether it is passive, whether another part may
-# be what it stands for, whether the model reads it already, together with others, whether it reads what
-# holds the probes, and whether it is a guideway whose screw, by no channel a candidate, may be it as well
+# error where it acts, whether it is the air beside something sharper, whether it is passive, whether a part that
+# another cause moves may be what it stands for, whether the model reads it already, together with others, whether it
+# reads what holds the probes, and whether it is a guideway whose screw, by no channel a candidate, may be it as well
 # (docs/method.md#probability)
 PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2, -2.3)
 # and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
@@ -55,17 +55,20 @@ def at_best(scored: Scored, samples: int) -> float:
     return _share(_log_odds(scored.evidence / max(samples, 1), FALLS[1], scored.candidate))
 
 
-def _on_open_tests(scored: Scored) -> float:
-    """Its log odds before the lock is opened."""
-    own = _log_odds(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten)
+def _on_open_tests(scored: Scored, *, this_part: bool = False) -> float:
+    """Its log odds before the lock is opened. this_part: that it is this part, not only this cause."""
+    own = _log_odds(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, this_part=this_part)
     there = max((p for _, p in scored.also_on), default=0.0)
     return own + (BORNE_OUT * _logit(there) if there > 0.5 else 0.0)
 
 
-def _log_odds(a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False) -> float:
+def _log_odds(
+    a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False, this_part: bool = False
+) -> float:
     level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder, by_lesser = PROBABILITY
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
-    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * may_be_another_cause(of)
+    another = bool(of.unread) if this_part else may_be_another_cause(of)
+    odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * another
     return float(odds + by_one_of_several * (of.kin == "part") + by_holder * of.of_holder + by_lesser * of.lesser)
 
 
@@ -92,12 +95,9 @@ def sharpness_asked(fall: float, of: CandidateEffect) -> float:
 
 def elsewhere(scored: Scored) -> tuple[str, ...]:
     """Places of other parts that it may be as well, which run at the same hours in locked tests, too. A motion has the
-    timing of no part."""
-    of = scored.candidate
-    own = _on_open_tests(scored)
-    if of.unread and not may_be_another_cause(of):
-        own += PROBABILITY[5]  # which part it is, is no surer for its being the air
-    return () if own >= _logit(TOLD_APART) and not of.of_motion else of.unread
+    timing of no part, and which part it is, is no surer for its being the air."""
+    told = _on_open_tests(scored, this_part=True) >= _logit(TOLD_APART) and not scored.candidate.of_motion
+    return () if told else scored.candidate.unread
 
 
 def limit_of(scored: Scored) -> float:
