@@ -45,6 +45,7 @@ DIAGNOSIS = {
     "by_choice",
     "not_asked",
     "locked_unasked",
+    "locked_tests",
     "started_on",
     "named_rmse_um",
     "modelled_rmse_um",

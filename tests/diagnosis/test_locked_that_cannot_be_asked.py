@@ -62,3 +62,14 @@ def test_a_claim_says_which_locked_tests_could_not_be_asked(
     said = verdict_sentence(found)
     assert head in said
     assert ("could" in said) is bool(head)
+
+
+def test_a_claim_says_that_no_test_is_locked(spec: Model) -> None:
+    data = make_data(of_nut, tests=7)
+    data = replace(data, tests=data.tests[:-1])  # the last is the locked one
+    found = answer(fit_model(spec, data, uncertainty=False), data, effects(), "m").diagnosis
+    assert [c.id for c in found.candidates if c.claimed] == ["feed_screw:T_nut_X"]
+    assert found.locked_tests == 0
+    assert "; no locked test bears it out, for none is locked: measure one more" in verdict_sentence(found)
+    # an answer of an older version does not know how many there were
+    assert "is locked" not in verdict_sentence(found.model_copy(update={"locked_tests": None}))

@@ -89,6 +89,7 @@ def in_contract(
         by_choice=by_choice,
         started_on=started_with(case.response, case.logged),
         locked_unasked=_unasked(case, found),
+        locked_tests=len(case.locked) + len(case.shut),
     )
 
 

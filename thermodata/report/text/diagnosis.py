@@ -206,11 +206,12 @@ def _on_locked(found: Diagnosis) -> str:
 
 
 def _opened_for(found: Diagnosis) -> str:
-    """That no locked test was opened, for silence would count as evidence; or for which mode of the model's effects,
-    for each look is counted. '' where a claim or its reason says so."""
+    """That no locked test was opened, or that there is none, for silence would count as evidence; or for which mode of
+    the model's effects, for each look is counted. '' where a claim or its reason says so."""
     asked = [c for c in found.candidates if c.claimed or c.locked_tests_asked]
     if not asked:
-        return "" if found.verdict == "not_testable" else "no locked test was opened for this answer"
+        none = "no test is locked" if found.locked_tests == 0 else "no locked test was opened for this answer"
+        return "" if found.verdict == "not_testable" else none
     modes = [c for c in asked if c.refinement and c.locked_shape_um_before is not None]
     if len(modes) < len(asked):
         return ""

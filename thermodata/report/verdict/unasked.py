@@ -1,4 +1,4 @@
-"""Which locked tests could not be asked, why, and what to do: their silence is no evidence."""
+"""Which locked tests could not be asked, why, and what to do, or that there is none: their silence is no evidence."""
 
 from __future__ import annotations
 
@@ -7,9 +7,15 @@ from typing import TYPE_CHECKING
 from thermodata.schema.words.sentences import counted, listed, with_count
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from thermodata.schema.answers.candidate import Candidate
     from thermodata.schema.answers.diagnosis import Diagnosis
 
 _MOST = 3  # tests of one reason
+_LOCK_ONE = (
+    "measure one more and give it role: locked, or keep one of these back by that, then ingest, fit and diagnose again"
+)
 _DO = (
     "see the losses that thermodata quality tells, mend these logs or lock a test that has them, then ingest, fit and "
     "diagnose again"
@@ -17,15 +23,22 @@ _DO = (
 
 
 def unasked(found: Diagnosis) -> str:
-    """'no locked test bears it out, for none could be asked (09_work: no driver for sun (T_hall)): see ...' of a claim;
-    '1 locked test could not be asked (...): see ...' beside others, and of what is no claim; '' where all could."""
+    """'no locked test bears it out, for none could be asked (09_work: no driver for sun (T_hall)): see ...' of a claim,
+    or 'for none is locked: measure ...'; '1 locked test could not be asked (...): see ...' beside others, and of what
+    is no claim; '' where all could."""
+    claims = [c for c in found.candidates if c.claimed]
+    if claims and found.locked_tests == 0:
+        return f"no locked test bears {_it(claims)} out, for none is locked: {_LOCK_ONE}"
     if not found.locked_unasked:
         return ""
-    claims = [c for c in found.candidates if c.claimed]
     which = f"could be asked ({_by_reason(found)}): {_DO}"
     if not claims or claims[0].locked_rmse_um_before is not None:
         return f"{counted(len(found.locked_unasked), 'locked test')} {which.replace('could', 'could not', 1)}"
-    return f"no locked test bears {'it' if len(claims) == 1 else 'them'} out, for none {which}"
+    return f"no locked test bears {_it(claims)} out, for none {which}"
+
+
+def _it(claims: Sequence[Candidate]) -> str:
+    return "it" if len(claims) == 1 else "them"
 
 
 def _by_reason(found: Diagnosis) -> str:
