@@ -422,6 +422,14 @@ def test_a_test_that_cannot_be_predicted_is_listed_with_the_reason() -> None:
     assert not said.passed
 
 
+def test_a_locked_test_that_cannot_be_predicted_is_listed_too() -> None:
+    data = _by_tool()
+    locked = replace(data, tests=tuple(replace(t, role="locked") if t.test == "f" else t for t in data.tests))
+    result = make_result(fit_model(_spec(TOOLS % "one_gain: true"), locked), locked, "m")
+    (said,) = [c for c in result.checks if c.name == "not_predicted:lab/f"]
+    assert said.advice == "dZ: no calibration test gave turning a gain for 'D160'"
+
+
 def test_groups_need_something_to_group() -> None:
     for more in ({"groups": {"D25": "k1"}}, {"one_gain": True}):
         with pytest.raises(ValueError, match="needs 'gain_by'"):

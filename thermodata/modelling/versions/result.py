@@ -73,10 +73,11 @@ def make_result(
 
 
 def _not_predicted(fitted: FittedModel, data: Dataset) -> list[Check]:
-    """Tests of the model that have no score, and why: none vanishes without a word."""
+    """Tests of the model that have no score, and why: none vanishes without a word. Of locked ones too, which silently
+    could bear out no claim."""
     said = {why.split(":")[0] for why in fitted.skipped}
     rows = []
-    for test in fitted.tests(data):
+    for test in (*fitted.tests(data), *fitted.tests(data, "locked")):
         name = f"{test.campaign}/{test.test}"
         reasons = [f"{r.name}: {why}" for r in fitted.responses if (why := r.why_not(test)) is not None]
         if reasons and name not in said:
