@@ -31,9 +31,9 @@ def test_each_claim_and_refinement_has_its_row_and_its_reason() -> None:
         ranked(3, "mode", refinement=True),
         ranked(4, "rest"),
     )
-    head, *_ = said.splitlines()
-    assert head.startswith("missing: screw (T), probability 94 %, and sun (T), probability 70 %; ")
-    assert head.endswith("; what the model has can be refined by mode (T)")
+    head = said.partition("\n\n")[0].splitlines()
+    assert head[0] == "missing: screw (T), probability 94 %, and sun (T), probability 70 %"
+    assert head[-1] == "  what the model has can be refined by mode (T)"
     rows = {line.split()[1]: line for line in said.splitlines() if line.split()[1:2] and line.split()[1].endswith(":T")}
     assert "yes      94 %" in rows["screw:T"]
     assert "yes      70 %" in rows["sun:T"]

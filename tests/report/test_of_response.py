@@ -26,7 +26,7 @@ def test_of_several_responses_the_text_names_the_one_that_was_asked_and_why() ->
     assert of_response(diagnosis()) == ""
     found = diagnosis().model_copy(update={"responses": TWO})
     assert diagnosis_text(found).splitlines()[1] == (
-        "of dZ, of which the model leaves most: 80 % of its variance, of dY 25 %; --response asks of another"
+        "  of dZ, of which the model leaves most: 80 % of its variance, of dY 25 %; --response asks of another"
     )
     chosen = found.model_copy(update={"response": "dY", "by_choice": True})
     assert of_response(chosen) == "of dY, as asked; the model leaves 25 % of its variance, of dZ 80 %"
@@ -68,7 +68,8 @@ def test_no_error_is_told_before_the_response_that_it_is_of(blind: ReportData, d
     lines = sentences(dataclasses.replace(page, diagnosis=found))
     assert lines[0].startswith("The error of dZ on ")
     of = next(i for i, line in enumerate(lines) if line.startswith("Of dZ, of which the model leaves most"))
-    assert "left-out tests" in lines[of + 1]
+    assert "left-out tests" in " ".join(lines[of + 1 :])
+    assert "left-out tests" not in " ".join(lines[:of])
 
 
 def test_the_errors_of_a_verdict_that_nothing_is_missing_are_told_behind_its_response(blind: ReportData) -> None:

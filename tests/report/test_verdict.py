@@ -825,7 +825,7 @@ def test_the_head_of_the_page_says_what_was_put_right(data: ReportData) -> None:
     right = PutRight(left_out=[("demo", "day9")])
     page = render(dataclasses.replace(data, diagnosis=found("effect", [claim("screw")], put_right=right)))
     head = page[: page.index("<h2")]
-    assert "judged without day9, where the probe is turned round" in head
+    assert "Judged without day9, where the probe is turned round" in head
 
 
 @pytest.mark.parametrize("failed", [[], [NotAsked(effect="zz", why="effect 'zz' failed: KeyError: 'zz'")]])

@@ -10,6 +10,7 @@ import pytest
 from markupsafe import Markup
 
 from thermodata.cli import main
+from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.verdict import verdict_sentence
 from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.diagnosis import Artefact
@@ -37,11 +38,10 @@ def test_the_headline_is_the_sentence_of_the_terminal(reader: Client, made_lab: 
     headline = re.search(r"<h1[^>]*>(.*?)</h1>", text, re.S)[1]
     assert claim.effect in headline
     assert "probability" in headline
-    rest = re.search(r'<p class="further">(.*?)</p>', text, re.S)[1]
-    parts = verdict_sentence(found).split("; ", 1)
-    assert [html.unescape(shown).strip() for shown in (headline, rest)] == [
-        typeset(part[:1].upper() + part[1:]) for part in parts
-    ], "its first part in bold, the rest below"
+    rest = re.findall(r"<li>(.*?)</li>", re.search(r'<ul class="further">(.*?)</ul>', text, re.S)[1], re.S)
+    assert [html.unescape(shown).strip() for shown in (headline, *rest)] == [
+        typeset(part[:1].upper() + part[1:]) for part in clauses(verdict_sentence(found))
+    ], "its first clause in bold, each of the rest below"
 
 
 def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> None:

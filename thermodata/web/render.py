@@ -13,6 +13,7 @@ import jinja2
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
 
+from thermodata.report.text.clauses import clauses
 from thermodata.report.text.fit import span
 from thermodata.report.verdict.verdict import probability
 from thermodata.report.words.glossary import LEVEL_SENTENCE
@@ -51,6 +52,7 @@ def environment() -> jinja2.Environment:
         moment=lambda iso: re.sub(r"\.?0*Z$", "", str(iso)).replace("T", " ") + " UTC",
         duration=duration,
         typeset=typeset,
+        clauses=clauses,
         probability=probability,
         begun=begun,
         percent=lambda share: typeset(percent(share)),

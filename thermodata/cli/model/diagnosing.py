@@ -123,6 +123,7 @@ def _answered_before(store: Store, ref: str, response: str | None) -> Diagnosis 
 
 def _said_otherwise(before: Diagnosis | None, now: Diagnosis) -> str | None:
     """That an earlier answer to the same question was another one, and why; None where it said the same."""
+    from thermodata.report.text.clauses import clauses
     from thermodata.report.verdict.verdict import verdict_sentence
 
     if before is None or verdict_sentence(before) == verdict_sentence(now):
@@ -133,7 +134,7 @@ def _said_otherwise(before: Diagnosis | None, now: Diagnosis) -> str | None:
         why = "the data"
     else:
         why = "the rules of the diagnosis, the effects or what is known of the locked tests"
-    head = verdict_sentence(before).partition("; ")[0]
+    head = clauses(verdict_sentence(before))[0]
     return f"asked anew, for {why} changed since the store's answer, which was another one: {head}"
 
 

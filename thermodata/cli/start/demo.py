@@ -12,6 +12,7 @@ import click
 
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
+from thermodata.report.text.clauses import in_lines
 from thermodata.report.text.table import fields
 from thermodata.report.verdict.verdict import claims_of, refinements_of, verdict_sentence
 from thermodata.report.words.numbers import change, duration, number, pooled
@@ -188,11 +189,11 @@ def _failing(step: Step, store: Store, base: FitResult) -> Diagnosis:
 
 def _tell_missing(step: Step, found: Diagnosis) -> None:
     step.title(5, "diagnose: which effect is missing?")
-    step.line(verdict_sentence(found))
+    step.line(in_lines(verdict_sentence(found)))
     claims = claims_of(found)
     for claim in claims:
         of = f"{claim.id}: " if len(claims) > 1 else ""
-        step.line(f"{of}{claim.why}")
+        step.line(in_lines(f"{of}{claim.why}"))
         if claim.equivalent:
             step.line(f"{of}these tests can't tell it from {listed(claim.equivalent)}")
     if found.next_test:

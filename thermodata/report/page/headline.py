@@ -5,6 +5,7 @@ from __future__ import annotations
 from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows, headline_error
+from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words.numbers import change, in_unit, number
 from thermodata.report.words.of_response import of_response
@@ -28,7 +29,7 @@ def headline(data: ReportData) -> str:
         claims = claims_of(data.diagnosis)
         if claims:
             return f"{data.diagnosis.response} misses {causes(claims)}"
-        return capital(_verdict(data, data.diagnosis).partition("; ")[0])
+        return capital(clauses(_verdict(data, data.diagnosis))[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
 
 
@@ -71,11 +72,12 @@ def sentences(data: ReportData) -> list[str]:
     # errors of one response stand behind its name
     of = capital(of_response(data.diagnosis)) if data.diagnosis else ""
     if data.diagnosis and (data.added or claims_of(data.diagnosis)):
-        lines.append(of)
-        lines.append(("Now: " if data.added else "") + capital(_verdict(data, data.diagnosis)))
+        first, *further = clauses(_verdict(data, data.diagnosis))
+        # else the headline has its first words
+        lines += [of, f"Now: {first}" if data.added else "", *map(capital, further)]
     elif data.diagnosis:
         # its first words are the headline
-        lines[:0] = [of, capital(_verdict(data, data.diagnosis).partition("; ")[2])]
+        lines[:0] = [of, *map(capital, clauses(_verdict(data, data.diagnosis))[1:])]
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
 
 

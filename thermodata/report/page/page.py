@@ -20,6 +20,7 @@ from thermodata.report.collected.lost import lost_of_versions
 from thermodata.report.page.error_rows import error_rows, headline_error
 from thermodata.report.page.headline import capital, headline, sentences
 from thermodata.report.page.write import page_values, write_page
+from thermodata.report.text.clauses import clauses
 from thermodata.report.text.fit import span
 from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.could_hide import could_hide
@@ -131,7 +132,7 @@ def _summary(data: ReportData) -> dict[str, Any]:
 
 def _verdicts(data: ReportData) -> dict[str, Any]:
     return {
-        "verdict": _said(data, data.diagnosis, verdict_sentence),
+        "verdict": [capital(clause) for clause in clauses(_said(data, data.diagnosis, verdict_sentence))],
         "could_hide": _said(data, data.diagnosis, could_hide),
         "reason": _said(data, data.reason, verdict_sentence),
         "faults": log_faults(data.diagnosis.artefacts) if data.diagnosis else [],

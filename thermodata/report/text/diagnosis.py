@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.text.candidates import candidates_text
+from thermodata.report.text.clauses import clauses, in_lines
 from thermodata.report.text.fit import spots_text
 from thermodata.report.text.parameters import parameters_text
 from thermodata.report.text.table import table
@@ -220,15 +221,17 @@ def _opened_for(found: Diagnosis) -> str:
 
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
-    """A diagnosis for a person."""
+    """A diagnosis for a person: the verdict, a clause a line, its figures, and what they rest on."""
     of = "as it is fitted the model leaves" if found.verdict == "not_testable" else "error on left-out tests"
     left = "" if found.rmse_um is None else f"{of} {number(found.rmse_um)} um"
-    figures = [left, _on_locked(found), noise_words(found), explainable(found)]
-    parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
+    errors = ", ".join(filter(None, [left, _on_locked(found)]))
+    figures = filter(None, [errors, noise_words(found), explainable(found)])
+    verdict, *further = clauses(verdict_sentence(found))
+    parts = ["\n  ".join(filter(None, [verdict, _asked(found), *further])), "\n".join(figures)]
     if found.candidates:
         parts.append(candidates_text(_in_table(found, top), found.rmse_um))
         parts += _claims(found)
-        parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
+        parts += [in_lines(f"why {c.id}: {c.why}") for c in told(found) if c.why]
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))
     if found.artefacts:

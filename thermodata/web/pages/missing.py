@@ -14,6 +14,7 @@ from thermodata.report.charts.courses import course_chart
 from thermodata.report.charts.heat import heat_charts
 from thermodata.report.collected.older import is_of_other_data
 from thermodata.report.page.headline import capital
+from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.verdict import claims_of, explainable, told, verdict_sentence
@@ -113,7 +114,7 @@ def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
     return {
         "headline": in_unit(first, unit),
-        "further": in_unit(rest, unit),
+        "further": [in_unit(clause, unit) for clause in rest],
         "about": _about(found, model, unit),
         "of_response": capital(of_response(found)),
         "told": shown,
@@ -169,10 +170,11 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
     return sorted(named, key=lambda one: -one[1].rmse_um_before)
 
 
-def _headline(found: Diagnosis) -> tuple[str, str]:
-    """The sentence of the terminal: (what it says first, the rest), for seven lines in bold are no headline."""
-    first, _, rest = verdict_sentence(found).partition("; ")
-    return capital(first), capital(rest)
+def _headline(found: Diagnosis) -> tuple[str, list[str]]:
+    """The sentence of the terminal: (what it says first, each further clause), for seven lines in bold are no
+    headline."""
+    first, *rest = clauses(verdict_sentence(found))
+    return capital(first), [capital(clause) for clause in rest]
 
 
 def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
