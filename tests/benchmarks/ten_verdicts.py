@@ -4,9 +4,9 @@
     uv run python tests/benchmarks/ten_verdicts.py --check [--kept FOLDER]         names what differs from it
 
 Each campaign is made in a folder of its own, and `ingest`, `fit` and `diagnose` run in this process at 100 columns.
-What was printed stands in the page as it came, but for lines that are wider: these are folded at their spaces, as a
-terminal folds them somewhere. `confirm` then asks the locked tests for the right name, which the table tells beside the
-answer. FOLDER keeps what was printed, so that a run goes on where it was ended. All ten take a quarter of an hour.
+What was printed stands in the page as it came, but for lines that are wider: these are folded as at a terminal.
+`confirm` then asks the locked tests for the right name, which the table tells beside the answer. FOLDER keeps what was
+printed, so that a run goes on where it was ended. All ten take a quarter of an hour.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ import re
 import shutil
 import sys
 import tempfile
-import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import asdict, dataclass
@@ -30,6 +29,7 @@ from typing import Any
 from measure import table
 from outside import marks
 
+from thermodata.report.text.table import sentences_folded
 from thermodata.report.verdict.verdict import probability
 from thermodata.report.words.numbers import number
 
@@ -197,9 +197,8 @@ def answer(which: int, kept: Path | None) -> Answer:
 
 
 def folded(printed: str) -> str:
-    """Lines of at most WIDTH, broken at spaces; names are never broken."""
-    fold = textwrap.TextWrapper(WIDTH, break_long_words=False, break_on_hyphens=False)
-    return "\n".join("\n".join(fold.wrap(line)) for line in printed.split("\n"))
+    """Lines of at most WIDTH, broken as at a terminal."""
+    return sentences_folded(printed, WIDTH)
 
 
 def with_block(page: str, name: str, text: str) -> str:
