@@ -197,7 +197,7 @@ def _tell_missing(step: Step, found: Diagnosis) -> None:
         if claim.equivalent:
             step.line(f"{of}these tests can't tell it from {listed(claim.equivalent)}")
     if found.next_test:
-        step.line(f"next test: {found.next_test}")
+        step.line(in_lines(f"next test: {found.next_test}"))
 
 
 @dataclass(frozen=True, slots=True)

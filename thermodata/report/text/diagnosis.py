@@ -270,9 +270,9 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
             + "\n".join(f"  {what}: {text}" for what, text in heat_lines(heat))
         )
     if hides := could_hide(found):
-        parts.append(hides)
+        parts.append(in_lines(hides))
     if found.next_test:
-        parts.append(f"next test: {found.next_test}")
+        parts.append(in_lines(f"next test: {found.next_test}"))
     parts.append(_words(found))
     return "\n\n".join(parts)
 
