@@ -108,7 +108,7 @@ def rest(old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
-    diagnosis("rules.py", "less < scored.evidence, why", "True, why", "a body that grows is said to bend"),
+    diagnosis("rules.py", "holds=less < scored.evidence", "holds=True", "a body that grows is said to bend"),
     diagnosis("rules.py", "min(scored.sides", "max(scored.sides", "no body bends"),
     diagnosis("probability.py", "(2.45, 2.2, ", "(4.45, 2.2, ", "an answer is too sure of itself"),
     diagnosis("probability.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
@@ -180,7 +180,7 @@ MUTANTS = [
         "refinement.py", "of_motion and kin in", "of_motion and kin not in", "a speed is a cause beside its motor"
     ),
     diagnosis("rules.py", "DOUBLES = -1.0", "DOUBLES = -9.0", "a part is claimed against all other tests"),
-    diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
+    diagnosis("rules.py", " and of.scored.candidate.kin is None", "", "one test makes a cause of another mode"),
     Mutant(
         "thermodata/diagnosis/candidates/basis.py",
         "left, tests = list(params), {",
@@ -205,8 +205,8 @@ MUTANTS = [
     ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT = 0.4", "SURE_BETTER_LIMIT = 0.0", "a test or two carry a sure claim"),
-    diagnosis("rules.py", "(strong or sure) and", "strong and", "a sure cause is refused for its fall"),
-    diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
+    diagnosis("rules.py", "(of.strong or of.sure) and", "of.strong and", "a sure cause is refused for its fall"),
+    diagnosis("rules.py", "SURE_BETTER_LIMIT if of", "BETTER_LIMIT if of", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
     diagnosis("preference.py", 'own.candidate.kin != "part" or', "True or", "the gradient hides a third sensor"),
     diagnosis(
@@ -236,8 +236,8 @@ MUTANTS = [
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),
     diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.0, 0.2", "a trifle that is sure is claimed"),
     diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.2, 0.9", "a proxy that is balanced is claimed"),
-    diagnosis("rules.py", "(sure and _does_much", "(False and _does_much", "what a known effect hides is not named"),
-    diagnosis("rules.py", "(sure and _does_much", "(_does_much", "what is slow and large stands beside a cause"),
+    diagnosis("rules.py", "(of.sure and _does_much", "(False and _does_much", "what a known effect hides is not named"),
+    diagnosis("rules.py", "(of.sure and _does_much", "(_does_much", "what is slow and large stands beside a cause"),
     diagnosis("measure.py", "FLOOR_SHARE = 0.1 ", "FLOOR_SHARE = 0.3 ", "a real error is left alone"),
     diagnosis("measure.py", "TIMES = 5.0, 2.0", "TIMES = 2.0, 2.0", "noise is to be explained"),
     diagnosis("measure.py", "TIMES = 5.0, 2.0", "TIMES = 5.0, 5.0", "a large noise hides what is missing"),

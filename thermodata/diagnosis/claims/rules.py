@@ -8,22 +8,15 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.claims.broken import too_few, too_little, unlike
+from thermodata.diagnosis.claims.in_words import in_short
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import (
-    limit_of,
-    may_be_another_cause,
-    may_be_confirmed,
-    probability,
-    sharpness,
-)
+from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.question.present import CONTROL
-from thermodata.diagnosis.weigh.figures import HARDLY, from_to, short, way
-from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.agreed.limits import PLAUSIBLE
-from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import apart, beside, in_percent
 
 P_LIMIT = 0.01
@@ -67,91 +60,162 @@ class Rule:
         return not self.holds or (self.value >= self.limit if self.at == "least" else self.value <= self.limit)
 
 
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A sound candidate as the rules ask of it. unit: of the response."""
+
+    scored: Scored
+    measure: Measure
+    unit: str
+
+    @property
+    def strong(self) -> bool:
+        """Whether its evidence outweighs how far left-out tests fall."""
+        return sharpness(self.scored) >= STRONG
+
+    @property
+    def overwhelming(self) -> bool:
+        """Whether its evidence outweighs how many tests there are."""
+        return sharpness(self.scored) >= OVERWHELMING
+
+    @property
+    def sure(self) -> bool:
+        """Whether it is as probable as a claim asks."""
+        return probability(self.scored) >= limit_of(self.scored)
+
+    @property
+    def tests(self) -> str:
+        """What its tests are called: 'tests', or 'parts' of one."""
+        return self.measure.tests
+
+    @property
+    def count(self) -> int:
+        """In how many tests it acts."""
+        return int(self.scored.acts.sum())
+
+
+_UNASKED = "; not asked where the evidence is {:g} a sample"
+
+
+def _chance_seldom_does_as_well(of: _Asked) -> Rule:
+    evidence, chance = of.scored.evidence, of.measure.chance
+    p = p_value(evidence, chance)
+    return Rule(
+        "chance",
+        asks="share of responses without a missing effect on which chance does as well",
+        value=p,
+        limit=P_LIMIT,
+        at="most",
+        holds=p <= P_LIMIT,
+        fails=f"{chance_in_words(evidence, chance)} ({beside(p, P_LIMIT)})",
+    )
+
+
+def _the_error_falls_on_left_out_tests(of: _Asked) -> Rule:
+    drop, limit = of.scored.drop, STEADYING_DROP_LIMIT if _steadies(of.scored) else DROP_LIMIT
+    return Rule(
+        "fall",
+        asks=f"fall of the error where it acts, its size from the other {of.tests}{_UNASKED.format(STRONG)}, or it is "
+        "as probable as a claim asks",
+        value=drop,
+        limit=limit,
+        at="least",
+        holds=drop >= limit or ((of.strong or of.sure) and drop >= DOUBLES),
+        fails=too_little(of.scored, limit, of.unit, of.tests, DOUBLES),
+    )
+
+
+def _most_tests_become_more_probable(of: _Asked) -> Rule:
+    better, limit = of.scored.better, SURE_BETTER_LIMIT if of.sure else BETTER_LIMIT
+    return Rule(
+        "tests",
+        asks=f"share of these {of.tests} that it makes more probable",
+        value=better,
+        limit=limit,
+        at="least",
+        holds=better >= limit,
+        fails=too_few(round(better * of.count), of.count, limit, of.tests),
+    )
+
+
+def _its_gain_is_alike_in_all_tests(of: _Asked) -> Rule:
+    spread = of.scored.spread
+    return Rule(
+        "gain",
+        asks=f"how much its gain differs between {of.tests}; not asked where the error falls by "
+        f"{in_percent(FORETOLD)}, or the evidence is {STRONG:g} a sample",
+        value=spread,
+        limit=SPREAD_LIMIT,
+        at="most",
+        holds=of.strong or spread <= SPREAD_LIMIT or of.scored.drop >= FORETOLD,
+        fails=unlike(spread, SPREAD_LIMIT, of.count, of.tests),
+    )
+
+
+def _other_tests_foretell_it(of: _Asked) -> Rule:
+    alone = of.overwhelming and of.scored.candidate.kin is None
+    test = of.tests[:-1]
+    return Rule(
+        "others",
+        asks=f"{of.tests} in which it acts{_UNASKED.format(OVERWHELMING)} and the model has nothing of its family",
+        value=of.count,
+        limit=LEAST_TESTS,
+        at="least",
+        holds=alone or of.count >= LEAST_TESTS,
+        fails=f"it acts in one {test} only: no other foretells it" if of.count else f"it acts in no {test}",
+    )
+
+
+def _it_explains_what_is_worth_a_name(of: _Asked) -> Rule:
+    told, spread = explained(of.scored), of.measure.spread
+    worth = WORTH_SHARE * spread
+    return Rule(
+        "worth",
+        asks=f"what it explains where it acts{_UNASKED.format(STRONG)}, or it is as probable as a claim asks and "
+        f"does {in_percent(WORTH_SIZE)} of the response by a gain that is alike in all {of.tests}",
+        value=told,
+        limit=worth,
+        at="least",
+        holds=of.strong or told >= worth or (of.sure and _does_much(of.scored, of.measure)),
+        fails=f"it explains {short(told)} {of.unit} where it acts, {_share(told, spread)} of the response's "
+        f"{short(spread)} {of.unit} ({beside(told / max(spread, 1e-12), WORTH_SHARE)})",
+        unit=of.unit,
+    )
+
+
+def _a_difference_says_more_than_its_two_temperatures(of: _Asked) -> Rule | None:
+    """Asked where it reads two: where each says as much by itself, what they share acts."""
+    scored = of.scored
+    if not scored.sides:
+        return None
+    less, each = min(scored.sides), " and ".join(f"{one:.0f}" for one in scored.sides)
+    return Rule(
+        "difference",
+        asks="log evidence of that one of its two temperatures which says less by itself",
+        value=less,
+        limit=scored.evidence,
+        at="most",
+        holds=less < scored.evidence,
+        fails=f"each of {' and '.join(scored.candidate.channels)} says as much by itself as their difference does (log "
+        f"evidence {each}, and {scored.evidence:.0f}): what they share acts",
+    )
+
+
+_IN_THEIR_ORDER = (
+    _chance_seldom_does_as_well,
+    _the_error_falls_on_left_out_tests,
+    _most_tests_become_more_probable,
+    _its_gain_is_alike_in_all_tests,
+    _other_tests_foretell_it,
+    _it_explains_what_is_worth_a_name,
+    _a_difference_says_more_than_its_two_temperatures,
+)
+
+
 def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     """Every rule that a sound candidate keeps, in the order in which they are asked."""
-    p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
-    fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
-    told, worth, tests = explained(scored), WORTH_SHARE * measure.spread, measure.tests
-    strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
-    sure = probability(scored) >= limit_of(scored)
-    better = SURE_BETTER_LIMIT if sure else BETTER_LIMIT
-    unasked = "; not asked where the evidence is {:g} a sample"
-    alone = overwhelming and scored.candidate.kin is None
-    return [
-        Rule(
-            "chance",
-            "share of responses without a missing effect on which chance does as well",
-            p,
-            P_LIMIT,
-            "most",
-            p <= P_LIMIT,
-            f"{chance_in_words(scored.evidence, measure.chance)} ({beside(p, P_LIMIT)})",
-        ),
-        Rule(
-            "fall",
-            f"fall of the error where it acts, its size from the other {tests}{unasked.format(STRONG)}, or it is as "
-            "probable as a claim asks",
-            scored.drop,
-            fall,
-            "least",
-            scored.drop >= fall or ((strong or sure) and scored.drop >= DOUBLES),
-            too_little(scored, fall, unit, tests, DOUBLES),
-        ),
-        Rule(
-            "tests",
-            f"share of these {tests} that it makes more probable",
-            scored.better,
-            better,
-            "least",
-            scored.better >= better,
-            too_few(round(scored.better * count), count, better, tests),
-        ),
-        Rule(
-            "gain",
-            f"how much its gain differs between {tests}; not asked where the error falls by "
-            f"{in_percent(FORETOLD)}, or the "
-            f"evidence is {STRONG:g} a sample",
-            scored.spread,
-            SPREAD_LIMIT,
-            "most",
-            strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            unlike(scored.spread, SPREAD_LIMIT, count, tests),
-        ),
-        Rule(
-            "others",
-            f"{tests} in which it acts{unasked.format(OVERWHELMING)} and the model has nothing of its family",
-            count,
-            LEAST_TESTS,
-            "least",
-            alone or count >= LEAST_TESTS,
-            f"it acts in one {tests[:-1]} only: no other foretells it" if count else f"it acts in no {tests[:-1]}",
-        ),
-        Rule(
-            "worth",
-            f"what it explains where it acts{unasked.format(STRONG)}, or it is as probable as a claim asks and "
-            f"does {in_percent(WORTH_SIZE)} of the response by a gain that is alike in all {tests}",
-            told,
-            worth,
-            "least",
-            strong or told >= worth or (sure and _does_much(scored, measure)),
-            f"it explains {short(told)} {unit} where it acts, {_share(told, measure.spread)} of the response's "
-            f"{short(measure.spread)} {unit} ({beside(told / max(measure.spread, 1e-12), WORTH_SHARE)})",
-            unit,
-        ),
-        *_of_a_difference(scored),
-    ]
-
-
-def _of_a_difference(scored: Scored) -> list[Rule]:
-    """Of two temperatures that differ one says less by itself; where each says as much, what they share acts."""
-    less, each = min(scored.sides, default=0.0), " and ".join(f"{one:.0f}" for one in scored.sides)
-    told = "log evidence of that one of its two temperatures which says less by itself"
-    why = (
-        f"each of {' and '.join(scored.candidate.channels)} says as much by itself as their difference does (log "
-        f"evidence {each}, and {scored.evidence:.0f}): what they share acts"
-    )
-    rule = Rule("difference", told, less, scored.evidence, "most", less < scored.evidence, why)
-    return [rule] if scored.sides else []
+    of = _Asked(scored, measure, unit)
+    return [rule for rule in (ask(of) for ask in _IN_THEIR_ORDER) if rule is not None]
 
 
 def _share(part: float, whole: float) -> str:
@@ -177,59 +241,7 @@ def surely(scored: Scored) -> Rule:
         limit,
         "least",
         sure >= limit,
-        f"causes like it were right in {apart(sure, limit)} of cases only ({beside(sure, limit)}): {_in_short(scored)}",
-    )
-
-
-def _in_short(scored: Scored) -> str:
-    """What its probability hangs on."""
-    by = f" by {in_percent(scored.drop)}" if scored.drop >= HARDLY else ""
-    falls = f"where it acts the error {way(scored.error_before, scored.error_after)}{by}"
-    beaten = scored.beaten and scored.candidate.around
-    more = ["a sharper effect stands beside it, and leaves what is slow, as the air is"] if beaten else []
-    if scored.candidate.passive:
-        more.append("it reads a body that makes no heat, one beside the machine, or one whose place nobody declared")
-    if scored.candidate.kin == "part":
-        more.append("the model reads it already, together with others")
-    if scored.candidate.of_holder:
-        more.append("it reads the tool, or what holds the probes, which warms with all in the working space")
-    if may_be_another_cause(scored.candidate):
-        more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
-    more += [also_missing(scored)] if scored.also_on else []
-    if scored.looked is not None and scored.looked.saying:
-        more.append(on_locked(scored.looked))
-    return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
-
-
-def on_locked(looked: Looked) -> str:
-    """'on the locked tests, with a free offset a test, the error falls by 60 % (1.00 -> 0.40 um)', or in each of two
-    ways: this is not the error as tests are scored, from their first samples on."""
-    first, added = looked.foretold, looked.added
-    acts = "" if first.tests is None else " in which it acts"
-    error = f"on the locked tests{acts}, with a free offset a test, the error"
-    if len(looked.saying) < 2 or added is None:
-        return f"{error} {in_words(looked.saying[0], looked.unit)}"
-    return (
-        f"{error} {in_words(added, looked.unit)} with it added as it stands, and {in_words(first, looked.unit)} where "
-        "the effects of the model may act otherwise than by their fitted lags"
-    )
-
-
-def in_words(of: Foretold, unit: str) -> str:
-    """'falls by 60 % (1.00 -> 0.40 um)', 'hardly changes (...)', 'rises by 20 % (...)'."""
-    if of.falls:
-        said = f"falls by {in_percent(of.fall)}"
-    else:
-        rises = of.after > 1.005 * of.before > 0
-        said = f"rises by {in_percent(of.after / of.before - 1)}" if rises else "hardly changes"
-    return f"{said} ({from_to(of.before, of.after, unit)})"
-
-
-def also_missing(scored: Scored) -> str:
-    """'dX misses it as well (97 %)', for each other axis; what is improbable there speaks for nothing."""
-    return " and ".join(
-        f"{channel} {'misses it as well' if p > 0.5 else 'hardly misses it'} ({in_percent(p)})"
-        for channel, p in scored.also_on
+        f"causes like it were right in {apart(sure, limit)} of cases only ({beside(sure, limit)}): {in_short(scored)}",
     )
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from thermodata.diagnosis.claims.in_words import in_words, on_locked
 from thermodata.diagnosis.claims.probability import probability
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, in_words, on_locked
+from thermodata.diagnosis.claims.rules import LEAST_TESTS
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.weigh.figures import from_to, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked

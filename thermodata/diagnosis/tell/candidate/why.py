@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.in_words import also_missing, on_locked
 from thermodata.diagnosis.claims.refines import by_kind, not_advised
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, failed_rules, on_locked
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, failed_rules
 from thermodata.diagnosis.tell.candidate.ladder import of_probability
 from thermodata.diagnosis.tell.candidate.of_claim import (
     also_of_motor,
