@@ -7,6 +7,8 @@ import re
 from collections.abc import Collection
 from pathlib import Path
 
+from pydantic import Field
+
 from thermodata.calibration.expression.parser import parse
 from thermodata.draft.known.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
@@ -17,6 +19,21 @@ from thermodata.store.ingest.reading.resolve import natural
 
 _PROBED = ("displacement", "tilt")
 MOST_FILES = 100_000
+
+
+class CampaignOfLogs(Campaign):
+    """A campaign that no file says: bare logs, read as the sources of a known campaign.
+
+    probed_by: sources whose record is that of the probes, though no channel here reads one. A test begins with it as
+    in the known campaign, for its temperatures count from there, and so do the steps of the model.
+    """
+
+    probed_by: frozenset[str] = Field(default=frozenset(), exclude=True)
+
+    @property
+    def begun_by(self) -> frozenset[str]:
+        """Of a known campaign, the sources that carry its displacements."""
+        return self.probed_by
 
 
 def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -> Campaign:
@@ -47,7 +64,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
         )
     kept = {c: known.channels[c] for c in known.channels if c in wanted}
     calibrations = {n for c in kept.values() for n in as_list(c.calibration)}
-    made = Campaign.model_validate(
+    return CampaignOfLogs.model_validate(
         {
             "schema": "thermodata/campaign/1",
             "id": re.sub(r"[^A-Za-z0-9._-]+", "-", folder.resolve().name).strip("-._") or "logs",
@@ -61,10 +78,9 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
                 )
                 for t in sorted(tests, key=natural)
             ],
+            "probed_by": {c.source for c in known.channels.values() if c.quantity in _PROBED} & sources.keys(),
         }
     )
-    # a test begins as in the campaign: its temperatures count from there, and so do the steps of the model
-    return made.begun_by({str(c.source) for c in known.channels.values() if c.quantity in _PROBED} & sources.keys())
 
 
 def _with_their_parts(known: Campaign, channels: Collection[str]) -> set[str]:

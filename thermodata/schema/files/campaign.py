@@ -7,10 +7,9 @@ Its parts stand in modules of their own: `campaign_sources`, `campaign_channels`
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 from typing import Literal, get_args
 
-from pydantic import Field, PrivateAttr, field_validator
+from pydantic import Field, field_validator
 
 from thermodata.schema.files.campaign_channels import (
     Calibration,
@@ -106,19 +105,12 @@ class Campaign(Strict):
     versions: dict[str, str] = {}
     overrule: list[Overrule] = Field(default=[], exclude_if=lambda rules: not rules)
     notes: str = ""
-    # sources whose record is that of the probes though no channel here reads one: of logs that a model predicts
-    _of_probes: frozenset[str] = PrivateAttr(default=frozenset())
 
     @property
-    def of_probes(self) -> frozenset[str]:
-        """Sources at whose beginning a test begins, beside those whose displacements are channels."""
-        return self._of_probes
-
-    def begun_by(self, sources: Collection[str]) -> Campaign:
-        """The campaign with these sources in `of_probes`, which no file says."""
-        made = self.model_copy()
-        made._of_probes = frozenset(sources)
-        return made
+    def begun_by(self) -> frozenset[str]:
+        """Sources at whose beginning a test begins, beside those whose displacements are channels: none that a file
+        could name."""
+        return frozenset()
 
     @field_validator("id")
     @classmethod

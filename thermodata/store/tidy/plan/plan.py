@@ -120,7 +120,7 @@ class TestPlan:
             b.source
             for b in self.bound.values()
             if b.signal is not None and b.channel.quantity in ("displacement", "tilt")
-        } | self.campaign.of_probes
+        } | self.campaign.begun_by
 
     @property
     def cut_by(self) -> list[str]:
