@@ -17,6 +17,8 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.units.letters import encoding_hint
 from thermodata.schema.units.quantity import (
     MEASURED,
+    PROBED,
+    STATES,
     canonical,
     declared_conversion,
     delta_factor,
@@ -27,7 +29,6 @@ from thermodata.schema.units.quantity import (
 )
 
 _COLDEST_DEGC = -273.15
-_UNITLESS = frozenset({"state", "label"})
 TRUE_WORDS = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})
 FALSE_WORDS = frozenset({"0", "false", "off", "no", "ne", "aus", "nein"})
 
@@ -82,7 +83,7 @@ def channel_sign(channel: Channel, calibrations: Sequence[CalibrationResult], op
 
     Only a displacement or a tilt can be unknown. operands: the signs of the channels that a derived one reads.
     """
-    if channel.quantity not in ("displacement", "tilt"):
+    if channel.quantity not in PROBED:
         return "+"
     if channel.derive is not None:
         return "+" if operands and all(s == "+" for s in operands) else "unknown"
@@ -122,7 +123,7 @@ def reading_unit(
     """The unit of the scaled reading, before any calibration. CalibrationError where nothing tells it."""
     unit = channel.unit or signal_unit
     # a row of units says 'auto' or '0/1' of what has none
-    if channel.quantity in _UNITLESS and (not unit or (channel.unit is None and not is_unit(unit))):
+    if channel.quantity in STATES and (not unit or (channel.unit is None and not is_unit(unit))):
         return "1"
     if unit:
         return unit

@@ -22,7 +22,7 @@ from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
 from thermodata.reader.finding.seen import when
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
-from thermodata.schema.units.quantity import canonical, linear_conversion
+from thermodata.schema.units.quantity import STATES, canonical, linear_conversion
 from thermodata.store.tidy.flags.between import HELD
 from thermodata.store.tidy.flags.readings import reading_with
 
@@ -208,7 +208,7 @@ def _event(e: QualityEvent, absolute: bool) -> dict[str, Any]:
 
 def _canonical(column: Array, quantity: str, unit: str | None) -> Array:
     """Values as the flags expect them; a probe's volts, which a calibration is needed for, stay volts."""
-    if unit is None or quantity in ("state", "label") or column.dtype.kind not in "iuf":
+    if unit is None or quantity in STATES or column.dtype.kind not in "iuf":
         return column
     try:
         factor, shift = linear_conversion(unit, canonical(quantity))

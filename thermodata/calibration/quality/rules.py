@@ -21,7 +21,7 @@ from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, rests
 from thermodata.calibration.quality.value import RunStats, held_runs
 from thermodata.plugin import Bool1D
 from thermodata.schema.flag import Flag
-from thermodata.schema.units.quantity import HELD_QUANTITIES
+from thermodata.schema.units.quantity import STATES
 from thermodata.schema.words.places import is_at_tool
 
 # Quantities which can't leave and come back within a few samples. (Position, speed, power and flow can.)
@@ -70,7 +70,7 @@ def a_code_stands_for_no_value(seen: Marked) -> None:
     column = seen.column
     if seen.stats is not None:
         code = sentinels(seen.x, seen.stats, written=column.codes)
-    elif column.is_number and column.quantity not in HELD_QUANTITIES:
+    elif column.is_number and column.quantity not in STATES:
         code = no_values(seen.x, column.quantity, column.codes)
     else:
         return

@@ -15,9 +15,9 @@ from thermodata.errors import UsageError
 from thermodata.reader.finding.registry import files_in
 from thermodata.schema.files.campaign import Campaign, SourceSpec, Test
 from thermodata.schema.files.tests_from import pattern_of
+from thermodata.schema.units.quantity import PROBED
 from thermodata.store.ingest.reading.resolve import natural
 
-_PROBED = ("displacement", "tilt")
 MOST_FILES = 100_000
 
 
@@ -78,7 +78,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
                 )
                 for t in sorted(tests, key=natural)
             ],
-            "probed_by": {c.source for c in known.channels.values() if c.quantity in _PROBED} & sources.keys(),
+            "probed_by": {c.source for c in known.channels.values() if c.quantity in PROBED} & sources.keys(),
         }
     )
 

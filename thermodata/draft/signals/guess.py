@@ -33,7 +33,7 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.unit_in_name import unit_at_end
 from thermodata.schema.units.letters import encoding_hint, mended
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.quantity import STATES, is_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
@@ -121,7 +121,7 @@ def guess(
             return Guess(None, why_not=why)
         return replace(placed(replace(found, unit=None), own, text, told), sure=False, questions=(f"unit: {asked}",))
     found = of_quantity(known)
-    if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(said.last.strip()):
+    if dtype == "str" and found.quantity in STATES and _STATUS.fullmatch(said.last.strip()):
         return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None and (found.why_not or "").startswith(NOTHING) and not known:
         return _with_unit_named(found, said.whole_last)

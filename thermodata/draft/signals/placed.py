@@ -10,6 +10,7 @@ from thermodata.draft.words.listed import says
 from thermodata.draft.words.place import described_place, place_of
 from thermodata.draft.words.place_rules import Place
 from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in
+from thermodata.schema.units.quantity import PROBED
 
 _NEVER_DIFFERENCES = ("feed", "position", "rotational_speed", "torque", "current", "pressure")
 _NEEDS_PLACE = (
@@ -42,13 +43,13 @@ def placed(found: Guess, own: str, text: str, told: str = "") -> Guess:
         if wider.at is not None and (places_in(text) or axis_of(text)) and not _group_is_test(text, own):
             # the folder of names above tells where: less sure than the name itself
             place = Place(wider.at, False, wider.question)
-    axis = axis or (axis_of(text) if quantity in ("displacement", "tilt") else None)
+    axis = axis or (axis_of(text) if quantity in PROBED else None)
     questions = list(found.questions)
     # what a sensor's current measures says where it may be: no drive of it is sought before that is known
     is_open = any(q.startswith(OF_SENSOR) for q in questions)
     if place.question and not is_open and (quantity in _NEEDS_PLACE or quantity == "state"):
         questions.append(place.question)
-    letter = axis.upper() if axis and quantity in ("displacement", "tilt") else None
+    letter = axis.upper() if axis and quantity in PROBED else None
     if quantity == "displacement" and place.at == "tcp" and letter is None:
         questions.append("axis?")
     if says(SETPOINT, own) and quantity not in ("state", "displacement"):

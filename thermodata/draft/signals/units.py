@@ -7,7 +7,7 @@ import re
 from thermodata.errors import UsageError
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.unit_in_name import AT_END, unit_at_end
-from thermodata.schema.units.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.quantity import CANONICAL_UNIT, STATES, is_unit, linear_conversion, normal_unit
 from thermodata.schema.units.quantity import converts as converts_to
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.schema.units.spelling import bare_unit
@@ -170,4 +170,4 @@ def may_be(unit: str, quantity: str) -> bool:
         return is_inclination(unit)
     if quantity in ("load", "humidity"):
         return normal_unit(unit) in SHARES
-    return quantity not in ("state", "label") and converts(unit, quantity)
+    return quantity not in STATES and converts(unit, quantity)

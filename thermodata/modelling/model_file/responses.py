@@ -9,6 +9,7 @@ from thermodata.effect.places import holds
 from thermodata.errors import SpecError, ThermodataError, unknown_channel
 from thermodata.schema.agreed.effect_ids import ids_of
 from thermodata.schema.files.model import Model, Response
+from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.sentences import counted
 from thermodata.view.grid.dataset import ChannelInfo
 
@@ -65,7 +66,7 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
         if response.channel not in channels:
             raise no_channel(response.channel, channels, f"response, campaign {campaign}")
         return response.channel
-    moving = {n: i for n, i in channels.items() if i.quantity in ("displacement", "tilt")}
+    moving = {n: i for n, i in channels.items() if i.quantity in PROBED}
     hits = [
         n
         for n, i in moving.items()

@@ -15,10 +15,10 @@ from thermodata.effect.places import shown
 from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.schema.units.quantity import PROBED
 
 GAIN_BY = "gain_by:"
 PHASES = "phases:"
-RESPONSES = ("displacement", "tilt")
 _CHOSEN_NOW = {"in_sample": True, "in_sample_on": None}  # all open tests take part in the choice
 
 
@@ -95,7 +95,7 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
 
 def note_of_response(drivers: Sequence[str], channels: Mapping[str, Described]) -> str | None:
     """Why what displacements or tilts drive is no cause; None where none does. diagnose never asks it."""
-    found = [n for n in drivers if n in channels and channels[n].quantity in RESPONSES]
+    found = [n for n in drivers if n in channels and channels[n].quantity in PROBED]
     if not found:
         return None
     are = "is itself a displacement or tilt" if len(found) == 1 else "are themselves displacements or tilts"

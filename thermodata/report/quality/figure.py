@@ -14,6 +14,7 @@ from thermodata.report.charts.figures import TIME
 from thermodata.report.quality.data import TestQuality, Trace, flag_names
 from thermodata.report.words.numbers import duration
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.schema.units.quantity import PROBED, STATES
 
 # the worst of a bin's flags gives its colour: from what is only worth knowing to what must not be believed
 SEVERITY = (
@@ -35,7 +36,6 @@ _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
 _PANEL, _A_LABEL = 120, 13  # [px]
 _MOST_PANELS = 6
 _GAP_STEPS = 3.5  # of a channel's own, as at ingest
-_DRIFTING = ("displacement", "tilt")
 _ORDER = (
     "displacement",
     "tilt",
@@ -85,7 +85,7 @@ def _panels(traces: Sequence[Trace]) -> list[tuple[str, list[Trace]]]:
     """Quantities with their channels: those with something wrong first where there are too many."""
     found: dict[str, list[Trace]] = {}
     for trace in traces:
-        if trace.quantity not in ("state", "label"):
+        if trace.quantity not in STATES:
             found.setdefault(trace.quantity, []).append(trace)
     rank = {q: i for i, q in enumerate(_ORDER)}
     lively = [q for q in found if any(_bad(t) or _varies(t) for t in found[q])]
@@ -106,7 +106,7 @@ def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
     """Sound channels first, so that the others lie above them; in colour too where none is bad."""
     styles = effect_styles(t.name for t in members if _bad(t) or not any(map(_bad, members)))
     name = quantity.replace("_", " ")
-    if quantity in _DRIFTING:
+    if quantity in PROBED:
         members, name = [_from_first(t) for t in members], f"{name}, from the first valid value"
     ordered = sorted(members, key=_bad)
     curves = [_curve(t, hours, *styles.get(t.name, ("quiet", "solid")), t.name in styles) for t in ordered]

@@ -14,7 +14,7 @@ from thermodata.modelling.inputs.drivers import names_of
 from thermodata.schema.files.load import load_model, parse_model
 from thermodata.schema.files.model import Driver, Model, Place, Response
 from thermodata.schema.strict.lines import read_document
-from thermodata.schema.units.quantity import NOT_DRIVERS
+from thermodata.schema.units.quantity import NOT_DRIVERS, PROBED
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 _CHANNEL = re.compile(r"\bchannel '(\w+)'")
 _FILLED = """select distinct unnest(json_extract_string("columns", '$.filled[*]')) from file
 where campaign = ? and layer = 'tidy'"""
-_MOVES = ("displacement", "tilt")
 
 
 def next_step(
@@ -121,7 +120,7 @@ def _reads(model: Model, channel: Mapping[str, Any]) -> bool:
 def _is_response(response: Response, channel: Mapping[str, Any]) -> bool:
     if response.channel is not None:
         return bool(response.channel == channel["name"])
-    if channel.get("quantity") not in _MOVES or channel.get("axis") != response.axis:
+    if channel.get("quantity") not in PROBED or channel.get("axis") != response.axis:
         return False
     return response.at is None or holds(response.at, channel.get("at"))
 

@@ -65,8 +65,9 @@ CANONICAL_UNIT: dict[str, str] = {
 }
 
 MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
-NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})  # no cause of a displacement
-HELD_QUANTITIES = frozenset({"state", "label"})  # between samples
+PROBED = frozenset({"displacement", "tilt"})  # what a probe reads at the tool, of an axis and with a sign
+NOT_DRIVERS = PROBED | {"label"}  # no cause of a displacement
+STATES = frozenset({"state", "label"})  # held between samples, and without a unit
 # an axis that goes to and fro rubs either way, while its mean is nothing; power that a drive feeds back heats nothing
 UNDIRECTED = frozenset({"rotational_speed", "feed", "load", "current", "torque"})
 SECONDS_PER_UNIT = {"s": 1.0, "min": 60.0, "h": 3600.0}  # of the time constants of effects

@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.schema.flag import Flag
+from thermodata.schema.units.quantity import STATES
 from thermodata.store.base.connection import fetch, quoted
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
@@ -151,7 +152,7 @@ def _behind(
         line = series.timeline(member)
         after = line.find(t_ns)
         exact = after < line.rows and int(line.times(after, after + 1)[0]) == t_ns
-        held = bound.channel.quantity in ("state", "label") or series.as_written(bound).is_held
+        held = bound.channel.quantity in STATES or series.as_written(bound).is_held
         rows = [after] if exact else [r for r in ((after - 1,) if held else (after - 1, after)) if 0 <= r < line.rows]
     return [{"channel": name, **_raw(series, member, r, bound.signal.name, again)} for r in rows]
 

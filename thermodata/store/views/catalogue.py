@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.schema.units.quantity import CANONICAL_UNIT, HELD_QUANTITIES
+from thermodata.schema.units.quantity import CANONICAL_UNIT, STATES
 from thermodata.store.base.connection import literal
 
 if TYPE_CHECKING:
@@ -180,7 +180,7 @@ def _columns(
             continue
         text = kind == "VARCHAR"
         quantity, unit, comment = described.get(name, ("label" if text else "", "", ""))
-        held = text or quantity in HELD_QUANTITIES or source == SCHEDULE
+        held = text or quantity in STATES or source == SCHEDULE
         number = name in on_change and not held
         unit = unit or CANONICAL_UNIT.get(quantity, "")
         columns.append(Column(name, quantity, unit, held or number, text, comment, number))

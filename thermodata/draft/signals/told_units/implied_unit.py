@@ -7,7 +7,7 @@ from dataclasses import replace
 from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.told_units.doubted_units import MOST_OF_ONE, SHARED, hottest_c, is_fired
 from thermodata.draft.signals.values import Values
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.quantity import STATES, normal_unit
 
 _IMPLIED = {
     "temperature": "degC",
@@ -44,7 +44,7 @@ def with_unit(found: Guess, text: str, unit: str | None, written: str | None, va
     """With the unit as it would be written; a question where nothing says it. text: the name with those of the groups
     above; unit: as the file writes it; written: the one in the name; values: of a sample, None where there is none."""
     quantity = found.quantity or ""
-    if quantity in ("state", "label"):
+    if quantity in STATES:
         return replace(found, unit=None)
     if unit is not None and normal_unit(unit) != "dimensionless":
         return _in_range(replace(found, unit=unit), text, values)

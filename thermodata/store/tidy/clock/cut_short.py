@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.reader.times.step_back import in_words
+from thermodata.schema.units.quantity import PROBED
 from thermodata.store.tidy.clock.source_clock import Clock, first_ns, last_ns
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
@@ -23,7 +24,7 @@ def cut_short(plan: TestPlan, clocks: Mapping[str, Clock]) -> list[str]:
         return []
     begin, end = min(b for b, _ in others), max(e for _, e in others)
     by, said = f"'{', '.join(names)}'", []
-    for name in sorted({b.source for b in plan.bound.values() if b.channel.quantity in ("displacement", "tilt")}):
+    for name in sorted({b.source for b in plan.bound.values() if b.channel.quantity in PROBED}):
         source = plan.sources.get(name)
         if source is None or not source.shared or name not in spans:
             continue

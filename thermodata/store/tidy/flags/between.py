@@ -18,6 +18,7 @@ from thermodata.calibration.quality.range import Limits, ends_of_ranges
 from thermodata.calibration.quality.still import Reading, read_elsewhere
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.places import is_at_tool
 from thermodata.store.tidy.flags.flicker import Flicker
 from thermodata.store.tidy.flags.readings import as_read, reading_with
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     from thermodata.store.tidy.plan.plan import Bound
     from thermodata.store.tidy.values.chunk import Column
 
-_QUANTITIES = ("temperature", "displacement", "tilt", "humidity")
-HELD = ("displacement", "tilt")  # of which a test as a whole tells where their range ends
+_QUANTITIES = PROBED | {"temperature", "humidity"}
+HELD = PROBED  # of which a test as a whole tells where their range ends
 _MOST_PAUSES = 20
 # a sensor that is off is seen as it reads: whether a part of the test is foreign shows in all channels alike
 _SEEN = np.uint16(INVALID & ~Flag.OFFSET)

@@ -9,13 +9,13 @@ import numpy as np
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
+from thermodata.schema.units.quantity import PROBED
 from thermodata.store.tidy.flags.not_measuring import ONLY, joined
 from thermodata.store.tidy.values.series import TestSeries
 
 _POINTS = 20  # of an event, at which the speed is asked
 _STANDS_RPM = 5.0
 _STOOD = 0.9  # least share of the points: a speed may be logged a little late
-_QUANTITIES = ("displacement", "tilt")
 
 
 def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> list[QualityEvent]:
@@ -26,7 +26,7 @@ def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> l
         for e in events
         if e.flag in ("held", "stuck")
         and e.channel in bound
-        and bound[e.channel].channel.quantity in _QUANTITIES
+        and bound[e.channel].channel.quantity in PROBED
         and e.detail != ONLY  # it does not count against the channel, whatever stands meanwhile
     ]
     if not held:

@@ -11,7 +11,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.finding.match import NoSignalError
 from thermodata.reader.text.names.unit_in_name import other_unit
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.units.quantity import MEASURED, converts
+from thermodata.schema.units.quantity import MEASURED, PROBED, STATES, converts
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import schedule
 from thermodata.store.tidy.rows.in_parts import Found, InPart, find_in_parts
@@ -117,9 +117,7 @@ class TestPlan:
     @property
     def _of_displacements(self) -> set[str]:
         return {
-            b.source
-            for b in self.bound.values()
-            if b.signal is not None and b.channel.quantity in ("displacement", "tilt")
+            b.source for b in self.bound.values() if b.signal is not None and b.channel.quantity in PROBED
         } | self.campaign.begun_by
 
     @property
@@ -200,7 +198,7 @@ def _tell_two_units(plan: TestPlan, name: str, found: Found, channel: Channel) -
     """Tells of a signal whose name says another unit than its file, where the campaign file says none. One of both is
     wrong where they convert; where not, the name may be of before the file's scaling."""
     own = other_unit(found.signal.name, found.signal.unit, channel.quantity == "temperature_difference")
-    if own is None or found.signal.scaling is not None or channel.quantity in ("label", "state"):
+    if own is None or found.signal.scaling is not None or channel.quantity in STATES:
         return
     by = str(found.signal.unit)
     (plan.problems if converts(own, by) else plan.notes).append(

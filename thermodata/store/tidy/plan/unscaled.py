@@ -15,7 +15,7 @@ from thermodata.plugin import Array, Float1D, Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.stated_scale import Stated, line_that_applies, stated_scales
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, ScaleCalibration
-from thermodata.schema.units.quantity import declared_conversion, split_value
+from thermodata.schema.units.quantity import STATES, declared_conversion, split_value
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
@@ -32,7 +32,7 @@ def tell_unscaled(store: Path, plan: TestPlan) -> None:
     fractions, and most likely all of it. Nothing is told of values that stand in steps of the factor."""
     for bound in plan.bound.values():
         channel = bound.channel
-        if bound.signal is None or channel.scaled or channel.quantity in ("state", "label"):
+        if bound.signal is None or channel.scaled or channel.quantity in STATES:
             continue
         told = set[str]()
         for raw in plan.sources[bound.source].streams[bound.stream]:

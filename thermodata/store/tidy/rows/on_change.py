@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.signals.set_values import are_set
-from thermodata.schema.units.quantity import HELD_QUANTITIES
+from thermodata.schema.units.quantity import STATES
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.rows.timeline import Timeline
 
@@ -25,7 +25,7 @@ UNEVEN = 3.0  # between the longer and the shorter of the times between its rows
 MOST_ROWS = 100_000  # of which it is told
 
 BY_HAND = SET | {"position"}  # of what somebody writes down the steps
-STEPS = BY_HAND | HELD_QUANTITIES  # what goes in steps in a log written on change; what a sensor measures runs on
+STEPS = BY_HAND | STATES  # what goes in steps in a log written on change; what a sensor measures runs on
 DENSER = 10.0  # the densest log beside it has so many rows where it has one
 MOST_BY_HAND = 200  # rows
 _BEFORE_NS = 10**9  # a change, which two clocks tell to a sample at best

@@ -10,7 +10,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
-from thermodata.schema.units.quantity import converts, linear_conversion
+from thermodata.schema.units.quantity import PROBED, converts, linear_conversion
 from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, build
@@ -83,7 +83,7 @@ def _unit_of(campaign: Campaign, calibration: str) -> str | None:
 def _is_of_displacement(campaign: Campaign, calibration: str) -> bool:
     """Whether a displacement or a tilt uses a calibration; one that nobody uses yet may be for one."""
     quantities = {c.quantity for c in _users(campaign, calibration)}
-    return not quantities or bool(quantities & {"displacement", "tilt"})
+    return not quantities or bool(quantities & PROBED)
 
 
 def _users(campaign: Campaign, calibration: str) -> list[Channel]:

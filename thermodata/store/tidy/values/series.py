@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
-from thermodata.schema.units.quantity import HELD_QUANTITIES
+from thermodata.schema.units.quantity import STATES
 from thermodata.store.tidy.clock.source_clock import Clock, Span, build, last_ns
 from thermodata.store.tidy.plan import derive, schedule
 from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
@@ -197,7 +197,7 @@ class TestSeries:
             held = values[index]
             held[before] = None
             return held, flags[index]
-        if bound.channel.quantity in HELD_QUANTITIES or bound.is_held:
+        if bound.channel.quantity in STATES or bound.is_held:
             return np.where(before, np.nan, values[index]), flags[index]
         follows = np.minimum(index + 1, len(t) - 1)
         exact = t[index] == t_ns

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.campaign_channels import Calibration, Channel
+from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.places import called_here, is_known, nearest_place
 from thermodata.schema.words.sentences import with_count
 
@@ -64,7 +65,7 @@ def _sign(axes: Sequence[str | None]) -> str:
 
 def _unoriented(channel: Channel, campaign: Campaign) -> bool:
     """Whether nothing says which way a displacement counts: no jump test, and no probe whose facing is declared."""
-    if channel.quantity not in ("displacement", "tilt") or channel.derive is not None:
+    if channel.quantity not in PROBED or channel.derive is not None:
         return False
     named = [channel.calibration] if isinstance(channel.calibration, str) else channel.calibration or []
     own = [campaign.calibrations[n] for n in named if n in campaign.calibrations]
