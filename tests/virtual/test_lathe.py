@@ -12,15 +12,15 @@ from thermodata.errors import UsageError
 from thermodata.view.grid.load import load_dataset
 from thermodata.virtual.lathe.causes import CAUSES, bend, growth, play
 from thermodata.virtual.lathe.data import STEP_S, contribution, model_of, to_dataset
-from thermodata.virtual.lathe.fields import STACK, Fields
-from thermodata.virtual.lathe.hall import Air, Hall
+from thermodata.virtual.lathe.heat.fields import STACK, Fields
+from thermodata.virtual.lathe.heat.hall import Air, Hall
+from thermodata.virtual.lathe.heat.losses import bearing_w, film_of, forced_cubed, motor_w, sliding_w
+from thermodata.virtual.lathe.heat.march import Task, solve, solve_all
+from thermodata.virtual.lathe.heat.rods import STEEL, Body, Stack
+from thermodata.virtual.lathe.logged.sensors import BY_NAME
 from thermodata.virtual.lathe.logs import simulate_lathe
-from thermodata.virtual.lathe.losses import bearing_w, film_of, forced_cubed, motor_w, sliding_w
-from thermodata.virtual.lathe.march import Task, solve, solve_all
 from thermodata.virtual.lathe.programme import DT_S, Work, work
 from thermodata.virtual.lathe.right_names import RIGHT
-from thermodata.virtual.lathe.rods import STEEL, Body, Stack
-from thermodata.virtual.lathe.sensors import BY_NAME
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import DECOY, World, correlation, make_world
 from thermodata.virtual.truth.strata import DEVELOPMENT, SEALED

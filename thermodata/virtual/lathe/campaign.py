@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from thermodata.virtual.lathe.causes import Heat
-from thermodata.virtual.lathe.hall import Air, Hall
-from thermodata.virtual.lathe.march import SOAK_H, Task, solve_all
+from thermodata.virtual.lathe.heat.hall import Air, Hall
+from thermodata.virtual.lathe.heat.march import SOAK_H, Task, solve_all
 from thermodata.virtual.lathe.programme import DT_S, campaign, work
 
 SOAK_STEPS = 120

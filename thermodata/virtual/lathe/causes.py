@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.lathe.fields import STACK, Fields
+from thermodata.virtual.lathe.heat.fields import STACK, Fields
 from thermodata.virtual.lathe.programme import DT_S, TOP_RPM, Work
 
 BODIES = {b.name: b for b in STACK.bodies}

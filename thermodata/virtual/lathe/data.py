@@ -12,8 +12,8 @@ from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.described import described
+from thermodata.virtual.lathe.logged.recording import Run
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
-from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import AXES, TREAD_UM, World

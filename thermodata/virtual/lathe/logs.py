@@ -14,8 +14,8 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.store.base.counting import counted
 from thermodata.virtual.lathe.data import model_of
+from thermodata.virtual.lathe.logged.recording import Run
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
-from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.lathe.world import AXES, World, make_world

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from thermodata.virtual.lathe.causes import CAUSES
-from thermodata.virtual.lathe.sensors import BY_NAME
+from thermodata.virtual.lathe.logged.sensors import BY_NAME
 from thermodata.virtual.truth.names import Names, right
 
 _TABLE: Names = {

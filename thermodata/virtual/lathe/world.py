@@ -14,10 +14,10 @@ from thermodata.errors import unknown_name
 from thermodata.plugin import Bool1D
 from thermodata.virtual.lathe.campaign import Stretch, stretches
 from thermodata.virtual.lathe.causes import ALONE, CAUSES, KNOWN, OUTSIDE
-from thermodata.virtual.lathe.faults import blemish, slip
+from thermodata.virtual.lathe.logged.faults import blemish, slip
+from thermodata.virtual.lathe.logged.recording import Run
+from thermodata.virtual.lathe.logged.sensors import ALL, BY_NAME, Sensor, coarse
 from thermodata.virtual.lathe.programme import DT_S
-from thermodata.virtual.lathe.recording import Run
-from thermodata.virtual.lathe.sensors import ALL, BY_NAME, Sensor, coarse
 from thermodata.virtual.lathe.strata import STRATA
 from thermodata.virtual.truth.case import Fault
 from thermodata.virtual.truth.strata import Stratum

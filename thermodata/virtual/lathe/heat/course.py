@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.lathe.fields import STACK, TANKS
-from thermodata.virtual.lathe.hall import Air
-from thermodata.virtual.lathe.losses import forced_cubed, motor_w, sliding_w
+from thermodata.virtual.lathe.heat.fields import STACK, TANKS
+from thermodata.virtual.lathe.heat.hall import Air
+from thermodata.virtual.lathe.heat.losses import forced_cubed, motor_w, sliding_w
 from thermodata.virtual.lathe.programme import TOP_RPM, Work
 
 COOLER = 110.0  # [W/K] between the coolant and its cooler

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.lathe.rods import ALUMINIUM, CAST_IRON, STEEL, Body, Stack
+from thermodata.virtual.lathe.heat.rods import ALUMINIUM, CAST_IRON, STEEL, Body, Stack
 
 STACK = Stack(
     (

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.virtual.lathe.logged.recording import Run
 from thermodata.virtual.lathe.programme import DT_S
-from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.truth.case import Fault
 
 

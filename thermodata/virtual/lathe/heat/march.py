@@ -8,10 +8,10 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from thermodata.plugin import Float1D, Float2D
-from thermodata.virtual.lathe.course import AT, CELLS, TANK, TOUCH, Course, make_course
-from thermodata.virtual.lathe.fields import STACK, TANKS, Fields
-from thermodata.virtual.lathe.hall import Air
-from thermodata.virtual.lathe.losses import bearing_w, film_of
+from thermodata.virtual.lathe.heat.course import AT, CELLS, TANK, TOUCH, Course, make_course
+from thermodata.virtual.lathe.heat.fields import STACK, TANKS, Fields
+from thermodata.virtual.lathe.heat.hall import Air
+from thermodata.virtual.lathe.heat.losses import bearing_w, film_of
 from thermodata.virtual.lathe.programme import DT_S, Work
 
 WET_FILM = 130.0  # [W/m2/K] of coolant on what it wets

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.signal import lfilter
 
 from thermodata.plugin import Float1D
-from thermodata.virtual.lathe.fields import Fields
-from thermodata.virtual.lathe.hall import Air
+from thermodata.virtual.lathe.heat.fields import Fields
+from thermodata.virtual.lathe.heat.hall import Air
 from thermodata.virtual.lathe.programme import DT_S, Work
 
 True_ = Callable[[Work, Air, Fields], Float1D]
