@@ -15,8 +15,8 @@ from thermodata_reader_mcap.encodings.decoded_messages import columns as one_by_
 from thermodata_reader_mcap.encodings.json import arrow
 from thermodata_reader_mcap.encodings.json.decoder import JsonDecoder
 from thermodata_reader_mcap.encodings.json.text import loads
-from thermodata_reader_mcap.signals.field_survey import Survey
-from thermodata_reader_mcap.signals.topic_discovery import discover
+from thermodata_reader_mcap.signals.survey.field_survey import Survey
+from thermodata_reader_mcap.signals.survey.topic_discovery import discover
 
 from thermodata.plugin import Source
 
@@ -94,7 +94,7 @@ def test_columns_are_those_of_the_standard_library(kinds: list[bytes], order: li
 @settings(deadline=None)
 @given(st.lists(objects, min_size=17, max_size=40))
 def test_signals_are_the_same_however_the_sample_was_parsed(messages: list[dict[str, Any]]) -> None:
-    from thermodata_reader_mcap.signals.topic_discovery import _by_arrow
+    from thermodata_reader_mcap.signals.survey.topic_discovery import _by_arrow
 
     quick, slow = Survey(), Survey()
     if not _by_arrow([json.dumps(m).encode() for m in messages], quick):

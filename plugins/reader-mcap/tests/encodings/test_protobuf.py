@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from thermodata_reader_mcap.container.definitions import Schema
 from thermodata_reader_mcap.encodings.decoded_messages import columns as one_by_one
 from thermodata_reader_mcap.encodings.protobuf.schemas import protobuf_decoder
-from thermodata_reader_mcap.signals.topic_discovery import discover
+from thermodata_reader_mcap.signals.survey.topic_discovery import discover
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source

@@ -20,7 +20,7 @@ from thermodata_reader_mcap.encodings.ros.idl import idl_types
 from thermodata_reader_mcap.encodings.ros.message_types import message_types
 from thermodata_reader_mcap.encodings.ros.package import package_decoder
 from thermodata_reader_mcap.encodings.ros.schemas import ros_decoder
-from thermodata_reader_mcap.signals.topic_discovery import discover
+from thermodata_reader_mcap.signals.survey.topic_discovery import discover
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source

@@ -20,11 +20,11 @@ from thermodata_reader_mcap.encodings.decoder import Decoder, UnsupportedError
 from thermodata_reader_mcap.encodings.decoders import columns, decoder
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
-from thermodata_reader_mcap.signals.batches_of_samples import parted
-from thermodata_reader_mcap.signals.header_stamps import stamps
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH
 from thermodata_reader_mcap.signals.plan import Plan, wanted_topic
-from thermodata_reader_mcap.signals.units_of_channels import Other, in_units_of_topic
+from thermodata_reader_mcap.signals.samples.batches_of_samples import parted
+from thermodata_reader_mcap.signals.stamps.header_stamps import stamps
+from thermodata_reader_mcap.signals.units.units_of_channels import Other, in_units_of_topic
 
 BATCH = 16 << 20  # bytes of messages that are collected,
 PART = 2 << 20  # and that become columns at a time

@@ -22,15 +22,15 @@ from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
-from thermodata_reader_mcap.signals.batches_of_samples import Samples, parted
-from thermodata_reader_mcap.signals.chunk_survey import WHOLE, Chunks, chosen_of, survey
-from thermodata_reader_mcap.signals.find_samples import find_samples
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
+from thermodata_reader_mcap.signals.samples.batches_of_samples import Samples, parted
+from thermodata_reader_mcap.signals.samples.find_samples import find_samples
 from thermodata_reader_mcap.signals.several_senders import senders
-from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
-from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, readers
-from thermodata_reader_mcap.signals.units_in_messages import units_said
-from thermodata_reader_mcap.signals.units_of_channels import UnitsOfChannels
+from thermodata_reader_mcap.signals.stamps.stamps_apart import apart, first_stamp, rushed, unit_of
+from thermodata_reader_mcap.signals.survey.chunk_survey import WHOLE, Chunks, chosen_of, survey
+from thermodata_reader_mcap.signals.survey.topic_discovery import by_name, discover, readers
+from thermodata_reader_mcap.signals.units.units_in_messages import units_said
+from thermodata_reader_mcap.signals.units.units_of_channels import UnitsOfChannels
 
 EARLIEST_NS = 10**17  # log times before 1973 count from the start of the recording
 

@@ -15,9 +15,9 @@ from thermodata_reader_mcap.container.messages import Content, collect_messages
 from thermodata_reader_mcap.container.records import HEAD, MESSAGE_HEAD, Bytes
 from thermodata_reader_mcap.encodings.columns import Columns
 from thermodata_reader_mcap.encodings.topic import Topic
-from thermodata_reader_mcap.signals.batches_of_samples import parted
 from thermodata_reader_mcap.signals.blocks import BATCH, Job, Writer
 from thermodata_reader_mcap.signals.plan import Plan, content, plan, wanted_topic
+from thermodata_reader_mcap.signals.samples.batches_of_samples import parted
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
-from thermodata_reader_mcap.signals.batches_of_samples import (
+from thermodata_reader_mcap.signals.samples.batches_of_samples import (
     DEEPEST,
     Keys,
     Samples,
@@ -23,8 +23,16 @@ from thermodata_reader_mcap.signals.batches_of_samples import (
     in_columns,
     samples_of,
 )
-from thermodata_reader_mcap.signals.messages_of_each_form import messages_of_each_form
-from thermodata_reader_mcap.signals.sample_times import BEGINS, RATES, STEPS, calls_times, is_number, sizes, word
+from thermodata_reader_mcap.signals.samples.messages_of_each_form import messages_of_each_form
+from thermodata_reader_mcap.signals.samples.sample_times import (
+    BEGINS,
+    RATES,
+    STEPS,
+    calls_times,
+    is_number,
+    sizes,
+    word,
+)
 
 _LOOKED_AT = 200  # messages, and of each array
 _FORMS = 20  # messages, by which arrays and times are known

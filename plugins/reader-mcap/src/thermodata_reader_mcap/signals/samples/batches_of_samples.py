@@ -17,7 +17,7 @@ from thermodata.plugin import Int1D
 from thermodata_reader_mcap.container.message_batches import U64, Batch
 from thermodata_reader_mcap.encodings.json.text import loads
 from thermodata_reader_mcap.encodings.named_elements import is_name_key
-from thermodata_reader_mcap.signals.sample_times import calls_times, dated, is_number
+from thermodata_reader_mcap.signals.samples.sample_times import calls_times, dated, is_number
 
 Keys = tuple[str, ...]
 DEEPEST = 5

@@ -14,9 +14,9 @@ from thermodata_reader_mcap.encodings.json.arrow import joined
 from thermodata_reader_mcap.encodings.json.decoder import JsonDecoder
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, find_naming
 from thermodata_reader_mcap.encodings.topic import Declared, Hint, Topic
-from thermodata_reader_mcap.signals.field_survey import Survey, UnsureError
-from thermodata_reader_mcap.signals.field_types import find_leaves
 from thermodata_reader_mcap.signals.options import Options
+from thermodata_reader_mcap.signals.survey.field_survey import Survey, UnsureError
+from thermodata_reader_mcap.signals.survey.field_types import find_leaves
 
 _NAMES_IN = 200  # messages of a channel that tell whether the elements of arrays have names
 _ROWS, _BYTES = 512, 128 << 10  # inferred at a time: each message may bring fields of its own

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from thermodata_reader_mcap.encodings.field_paths import MOST_ELEMENTS, Path, any_element, path_name
 from thermodata_reader_mcap.encodings.topic import Declared, Hint, Leaf
-from thermodata_reader_mcap.signals.field_survey import FieldCounts, Survey
+from thermodata_reader_mcap.signals.survey.field_survey import FieldCounts, Survey
 
 MOST_SIGNALS = 5_000  # of a topic; more are keys that hold data, no set of signals
 _EXACT = 2**53

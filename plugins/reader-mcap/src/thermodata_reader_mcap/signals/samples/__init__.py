@@ -1,0 +1,1 @@
+"""Messages that hold several samples each: which arrays these are, and their times."""

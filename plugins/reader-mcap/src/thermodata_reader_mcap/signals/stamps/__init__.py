@@ -1,0 +1,1 @@
+"""Times that stand in the messages themselves, and whether they tell others than the log times."""

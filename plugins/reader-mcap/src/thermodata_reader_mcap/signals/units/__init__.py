@@ -1,0 +1,1 @@
+"""Units that messages say of their fields, and channels of their topics."""
