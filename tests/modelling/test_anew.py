@@ -16,10 +16,10 @@ from thermodata.modelling.fit.joint import fitted_problem
 from thermodata.modelling.inputs.drivers import start_deviation, start_value
 from thermodata.modelling.least_squares.labels import alike, fastest_first
 from thermodata.modelling.least_squares.search import Problem, search
-from thermodata.modelling.trust.anew import could_fall, fit_anew
-from thermodata.modelling.trust.coordinate import Searched
-from thermodata.modelling.trust.estimate import Estimate
-from thermodata.modelling.trust.profile import Profile
+from thermodata.modelling.trust.intervals.anew import could_fall, fit_anew
+from thermodata.modelling.trust.intervals.coordinate import Searched
+from thermodata.modelling.trust.intervals.estimate import Estimate
+from thermodata.modelling.trust.intervals.profile import Profile
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData

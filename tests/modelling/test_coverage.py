@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.modelling.trust.slow_noise import scatter
+from thermodata.modelling.trust.intervals.slow_noise import scatter
 from thermodata.plugin import Float1D, Float2D
 
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "coverage.py"

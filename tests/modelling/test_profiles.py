@@ -17,8 +17,8 @@ from thermodata.modelling.seen.profiles import profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import interval
-from thermodata.modelling.trust.apart import cooled
-from thermodata.modelling.trust.profile import Profile
+from thermodata.modelling.trust.checks.apart import cooled
+from thermodata.modelling.trust.intervals.profile import Profile
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 

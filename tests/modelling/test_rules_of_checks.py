@@ -14,7 +14,8 @@ from thermodata.modelling.model_file.shaped import DEAD_TIME
 from thermodata.modelling.terms import parameters
 from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import gain_unit
-from thermodata.modelling.trust import bound_checks, checks, term_checks
+from thermodata.modelling.trust.checks import bound_checks, term_checks
+from thermodata.modelling.trust.checks import of_every_fit as checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.report.text.fit import span
 from thermodata.schema.answers.result import Check

@@ -8,8 +8,8 @@ CHECKS = ("tests/modelling/test_rules_of_checks.py",)
 CALIBRATION = ("tests/calibration/test_rules_of_jump_checks.py", "tests/calibration/test_rules_of_clocks.py")
 
 
-def check(old: str, new: str, why: str, file: str = "checks.py") -> Mutant:
-    return Mutant(f"thermodata/modelling/trust/{file}", old, new, why, CHECKS)
+def check(old: str, new: str, why: str, file: str = "of_every_fit.py") -> Mutant:
+    return Mutant(f"thermodata/modelling/trust/checks/{file}", old, new, why, CHECKS)
 
 
 def calibration(file: str, old: str, new: str, why: str) -> Mutant:

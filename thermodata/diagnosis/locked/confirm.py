@@ -17,7 +17,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.modelling.trust.bound_checks import IMPLAUSIBLE
+from thermodata.modelling.trust.checks.bound_checks import IMPLAUSIBLE
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model

@@ -14,7 +14,7 @@ from thermodata.modelling.least_squares.labels import fastest_first
 from thermodata.modelling.least_squares.search import Problem, along_whole_range, search
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.terms.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
-from thermodata.modelling.trust.uncertainty import Cover, Rough, Spread, spreads
+from thermodata.modelling.trust.intervals.uncertainty import Cover, Rough, Spread, spreads
 from thermodata.plugin import Float1D, Param
 from thermodata.view.grid.dataset import TestData
 

@@ -21,7 +21,7 @@ from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.usable import usable_tests
-from thermodata.modelling.trust.checks import checks
+from thermodata.modelling.trust.checks.of_every_fit import checks
 from thermodata.schema.files.model import Model
 from thermodata.store.base.counting import counted
 from thermodata.view.grid.dataset import Dataset, TestData

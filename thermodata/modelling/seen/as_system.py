@@ -21,7 +21,7 @@ from thermodata.modelling.seen.state_space import System, system_of
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.of_tests import OfTests
-from thermodata.modelling.trust.bound_checks import at_bounds
+from thermodata.modelling.trust.checks.bound_checks import at_bounds
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import Dataset, TestData

@@ -11,8 +11,8 @@ from thermodata.modelling.inputs.roles import fitted_keys
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.terms.usable import usable_tests
-from thermodata.modelling.trust.apart import told_apart
-from thermodata.modelling.trust.uncertainty import profiles
+from thermodata.modelling.trust.checks.apart import told_apart
+from thermodata.modelling.trust.intervals.uncertainty import profiles
 from thermodata.view.grid.dataset import Dataset, TestData
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from thermodata.modelling.compare.common import lost_tests
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.modelling.trust.started_on import started_on_checks
+from thermodata.modelling.trust.checks.started_on import started_on_checks
 from thermodata.schema.answers.result import Check, FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import Dataset

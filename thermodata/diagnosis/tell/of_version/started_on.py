@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.modelling.trust.started_on import started_on
+from thermodata.modelling.trust.checks.started_on import started_on
 from thermodata.schema.answers.diagnosis import StartedOn
 from thermodata.view.grid.dataset import TestData
 

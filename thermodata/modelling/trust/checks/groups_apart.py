@@ -10,8 +10,8 @@ import numpy as np
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.trust.checks.sensitivity import STEP, sensitivity
 from thermodata.modelling.trust.memory import effective_count
-from thermodata.modelling.trust.sensitivity import STEP, sensitivity
 from thermodata.plugin import Float1D, Param
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData

@@ -18,8 +18,8 @@ import numpy as np
 
 from thermodata.modelling.least_squares.search import Problem, search
 from thermodata.modelling.terms.fitted_response import Ends
-from thermodata.modelling.trust.anew import could_fall, fit_anew
-from thermodata.modelling.trust.coordinate import Coordinate, Solved
+from thermodata.modelling.trust.intervals.anew import could_fall, fit_anew
+from thermodata.modelling.trust.intervals.coordinate import Coordinate, Solved
 from thermodata.plugin import Float1D, Float2D
 
 ALIKE = (0.92, 1.1)  # of the allowed rise, at the ends of the quadratic interval, that make it the profile's: beyond

@@ -10,9 +10,9 @@ import numpy as np
 from thermodata.modelling.least_squares.design import MOMENTS
 from thermodata.modelling.least_squares.labels import alike
 from thermodata.modelling.least_squares.search import Problem
-from thermodata.modelling.trust.coordinate import Coordinate, Searched, Solved
-from thermodata.modelling.trust.slow_noise import Scatter, make_noise, nothing
-from thermodata.modelling.trust.start_unknown import disturbances
+from thermodata.modelling.trust.intervals.coordinate import Coordinate, Searched, Solved
+from thermodata.modelling.trust.intervals.slow_noise import Scatter, make_noise, nothing
+from thermodata.modelling.trust.intervals.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
 
 CARRIED = 0.1  # of log(value), or of the range: further than that no slope is straight

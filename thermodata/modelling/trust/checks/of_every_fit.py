@@ -11,11 +11,11 @@ from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.trust.apart import told_apart
-from thermodata.modelling.trust.bound_checks import at_bounds
-from thermodata.modelling.trust.groups_apart import groups_apart
+from thermodata.modelling.trust.checks.apart import told_apart
+from thermodata.modelling.trust.checks.bound_checks import at_bounds
+from thermodata.modelling.trust.checks.groups_apart import groups_apart
+from thermodata.modelling.trust.checks.term_checks import lags_apart, longer_than_record, own_channel, ripple
 from thermodata.modelling.trust.memory import effective_count
-from thermodata.modelling.trust.term_checks import lags_apart, longer_than_record, own_channel, ripple
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData

@@ -9,7 +9,7 @@ from functools import lru_cache
 from thermodata.effect.registry import all_effects
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.parameters import gain_unit
-from thermodata.modelling.trust.at_reference import WHOLE, Reached
+from thermodata.modelling.trust.checks.at_reference import WHOLE, Reached
 from thermodata.plugin import Gain
 
 

@@ -12,9 +12,9 @@ from thermodata.modelling.least_squares.design import MOMENTS
 from thermodata.modelling.least_squares.labels import fastest_first
 from thermodata.modelling.least_squares.search import Problem, search
 from thermodata.modelling.terms.fitted_response import Ends
-from thermodata.modelling.trust.coordinate import Coordinate, Searched, Solved
-from thermodata.modelling.trust.estimate import Estimate, inside_bounds
-from thermodata.modelling.trust.profile import Profile
+from thermodata.modelling.trust.intervals.coordinate import Coordinate, Searched, Solved
+from thermodata.modelling.trust.intervals.estimate import Estimate, inside_bounds
+from thermodata.modelling.trust.intervals.profile import Profile
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.agreed.certainty import Z95
 

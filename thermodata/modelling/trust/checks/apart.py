@@ -15,8 +15,8 @@ import numpy as np
 
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST, names_of, start_value, step_s
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, bounds_of
-from thermodata.modelling.trust.sensitivity import Name, Sensitivity, sensitivity
-from thermodata.modelling.trust.slow_noise import Noise, make_noise
+from thermodata.modelling.trust.checks.sensitivity import Name, Sensitivity, sensitivity
+from thermodata.modelling.trust.intervals.slow_noise import Noise, make_noise
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData

@@ -8,8 +8,8 @@ import numpy as np
 
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, bounds_of
 from thermodata.modelling.terms.parameters import UNDETERMINED, interval, name_of
-from thermodata.modelling.trust.at_reference import reached
-from thermodata.modelling.trust.usual_gain import usual_gain
+from thermodata.modelling.trust.checks.at_reference import reached
+from thermodata.modelling.trust.checks.usual_gain import usual_gain
 from thermodata.plugin import Param
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData

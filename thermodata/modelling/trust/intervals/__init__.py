@@ -1,0 +1,1 @@
+"""How sure each parameter and gain is: by slopes and scatter, or by its profile."""
