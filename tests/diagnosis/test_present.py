@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.diagnosis.question.known_effects import from_other_zero, remembered
 from thermodata.diagnosis.question.present import ALL_MODES, Present, modes, present
 from thermodata.modelling.fit.model import fit_model
-from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import FreeFunction, GivenFunction
 from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.schema.files.model import EffectSpec, Model
 

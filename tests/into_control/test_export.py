@@ -19,7 +19,7 @@ from thermodata.export.control.data import as_data, json_text, write_mat
 from thermodata.export.control.program import Limits, Program
 from thermodata.export.control.python import python_module
 from thermodata.export.control.st import structured_text
-from thermodata.modelling.model_file.transfer import FreeFunction
+from thermodata.modelling.model_file.transfer.as_effect import FreeFunction
 from thermodata.plugin import Float1D
 
 from .programs import WIDE, Driven, driven, program, readings

@@ -9,7 +9,7 @@ import pytest
 from thermodata.effect.law import parse, with_parameters
 from thermodata.effect.law_run import filtered
 from thermodata.effect.linear import Filter, Mode, lag_filter, partial_fractions, partial_fractions_of_s
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 from thermodata.modelling.seen.linear_parts import CurvedError, paths
 from thermodata.modelling.seen.residual_tests import against, autocorrelation, ljung_box
 from thermodata.modelling.seen.state_space import system_of

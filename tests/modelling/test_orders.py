@@ -16,7 +16,7 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.left_out_error import LeftOut
 from thermodata.modelling.fit.orders import free_run_fit
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 from thermodata.modelling.predictions.left_out import folds, left_out_fit
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.errors import SpecError
 from thermodata.modelling import fit_model
-from thermodata.modelling.model_file.prediction import read_prediction
+from thermodata.modelling.model_file.prediction.as_effect import read_prediction
 from thermodata.modelling.predictions.predict import predict
 from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import model_id

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.modelling.model_file.prediction import read_prediction
+from thermodata.modelling.model_file.prediction.as_effect import read_prediction
 
 WANTED = {"a": [(0.0, 0.5), (30.0, 1.5)]}
 

@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.model_file.transfer import GivenFunction, given
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction, given
 from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import make_result
 from thermodata.plugin import Float1D

@@ -25,7 +25,7 @@ import pytest
 from thermodata.cli import main
 from thermodata.effect.lag import lag
 from thermodata.modelling.compare.portability import classify
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 from thermodata.plugin import Float1D
 
 from .document import Cell, hold_table

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 from thermodata.plugin import Float1D
 
 from .document import hold_table

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 
 from .document import hold_table
 from .lab import IDLE_S, STEP_S, Lab, Logged, Once, grid, hall_air, made_once, noisy, value, write_logs

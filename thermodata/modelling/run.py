@@ -18,9 +18,10 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
 from thermodata.modelling.inputs import coarse_readings, moved, shifted
 from thermodata.modelling.inputs.roles import find_tests, in_full, opened, resolve_roles
-from thermodata.modelling.model_file import nested, prediction
+from thermodata.modelling.model_file import nested
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
-from thermodata.modelling.model_file.transfer import NAME
+from thermodata.modelling.model_file.prediction import as_effect as prediction
+from thermodata.modelling.model_file.transfer.as_effect import NAME
 from thermodata.modelling.predictions.carried_on import said_of_fit
 from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of

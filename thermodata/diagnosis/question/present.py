@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from thermodata.effect.binding import bindings, family_of
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.model_file.nested import ModelOutput
-from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import GivenFunction
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect
 from thermodata.schema.units.quantity import SECONDS_PER_UNIT

@@ -16,7 +16,7 @@ from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.weigh.scored import ACTS, Scored
 from thermodata.errors import unknown_name
-from thermodata.modelling.model_file.said_conditions import refuse_unsaid
+from thermodata.modelling.model_file.values.said_conditions import refuse_unsaid
 from thermodata.modelling.terms.bound import OF_TESTS, group_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling.inputs.drivers import step_s
 from thermodata.modelling.inputs.phases import runs
-from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
+from thermodata.modelling.model_file.transfer.as_effect import FreeFunction, GivenFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.terms.identified import Identified

@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.least_squares.coarse import coarse_tests
-from thermodata.modelling.model_file.transfer import MOST, NAME, FreeFunction
+from thermodata.modelling.model_file.transfer.as_effect import MOST, NAME, FreeFunction
 from thermodata.modelling.predictions.left_out import Fold, folds, left_out_fit
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm

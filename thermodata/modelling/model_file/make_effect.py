@@ -8,7 +8,9 @@ from typing import cast
 
 from thermodata.effect import effect as find_effect
 from thermodata.errors import PluginError, SpecError, UsageError
-from thermodata.modelling.model_file import nested, prediction, transfer
+from thermodata.modelling.model_file import nested
+from thermodata.modelling.model_file.prediction import as_effect as prediction
+from thermodata.modelling.model_file.transfer import as_effect as transfer
 from thermodata.plugin import Effect
 from thermodata.schema.agreed.effect_ids import ids_of
 from thermodata.schema.files.model import EffectSpec, Model

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 from thermodata.effect import effect as find_effect
 from thermodata.errors import PluginError, UsageError
-from thermodata.modelling.model_file import nested, prediction, transfer
+from thermodata.modelling.model_file import nested
+from thermodata.modelling.model_file.prediction import as_effect as prediction
+from thermodata.modelling.model_file.transfer import as_effect as transfer
 from thermodata.schema.files.model import Model
 
 

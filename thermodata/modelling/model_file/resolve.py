@@ -10,13 +10,24 @@ from typing import Any, cast
 from thermodata.effect.binding import family_of
 from thermodata.errors import SpecError, UsageError, unknown_name
 from thermodata.modelling.inputs.roles import Roles, find_tests, resolve_roles
-from thermodata.modelling.model_file import nested, prediction, shaped, transfer
-from thermodata.modelling.model_file.bind import bind
+from thermodata.modelling.model_file import nested, shaped
+from thermodata.modelling.model_file.channels.bind import bind
+from thermodata.modelling.model_file.channels.responses import (
+    first_names,
+    known_responses,
+    response_by_campaign,
+    where_it_is,
+)
 from thermodata.modelling.model_file.make_effect import make_effect, refuse_unknown_effects
-from thermodata.modelling.model_file.own_units import in_own_units
-from thermodata.modelling.model_file.possible_values import refuse_impossible, refuse_no_name, refuse_unknown_groups
-from thermodata.modelling.model_file.responses import first_names, known_responses, response_by_campaign, where_it_is
-from thermodata.modelling.model_file.said_conditions import refuse_unsaid_of
+from thermodata.modelling.model_file.prediction import as_effect as prediction
+from thermodata.modelling.model_file.transfer import as_effect as transfer
+from thermodata.modelling.model_file.values.own_units import in_own_units
+from thermodata.modelling.model_file.values.possible_values import (
+    refuse_impossible,
+    refuse_no_name,
+    refuse_unknown_groups,
+)
+from thermodata.modelling.model_file.values.said_conditions import refuse_unsaid_of
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.nuisance import known_weights
 from thermodata.plugin import Effect

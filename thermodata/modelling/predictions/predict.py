@@ -10,9 +10,9 @@ import numpy as np
 
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.inputs.drivers import names_of
-from thermodata.modelling.model_file.bind import bind
+from thermodata.modelling.model_file.channels.bind import bind
+from thermodata.modelling.model_file.channels.responses import find_response
 from thermodata.modelling.model_file.nested import ModelOutput
-from thermodata.modelling.model_file.responses import find_response
 from thermodata.modelling.predictions.bands import bands
 from thermodata.modelling.predictions.carried_on import CarriedOn, carried_on
 from thermodata.modelling.terms.fitted import FittedModel

@@ -15,7 +15,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.inputs.overlap import overlaps
 from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys, in_full
 from thermodata.modelling.model_file.resolve import resolve
-from thermodata.modelling.model_file.transfer import DIRECT, NAME, FreeFunction
+from thermodata.modelling.model_file.transfer.as_effect import DIRECT, NAME, FreeFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values

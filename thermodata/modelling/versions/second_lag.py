@@ -16,9 +16,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.compare.left_out_error import Errors, LeftOut
 from thermodata.modelling.fit.orders import APART
 from thermodata.modelling.model_file.nested import NAME as NESTED
-from thermodata.modelling.model_file.prediction import NAME as PREDICTION
+from thermodata.modelling.model_file.prediction.as_effect import NAME as PREDICTION
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.modelling.model_file.transfer import NAME as TRANSFER
+from thermodata.modelling.model_file.transfer.as_effect import NAME as TRANSFER
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedTerm
 from thermodata.plugin import Param

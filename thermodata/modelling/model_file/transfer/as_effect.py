@@ -15,9 +15,9 @@ import numpy as np
 from thermodata.effect.lag import lag, lags, step_of
 from thermodata.effect.law import Law
 from thermodata.errors import SpecError
-from thermodata.modelling.model_file.digits import refuse_lost_digits
-from thermodata.modelling.model_file.own_units import in_unit
-from thermodata.modelling.model_file.transfer_law import free_law, given_law
+from thermodata.modelling.model_file.transfer.digits import refuse_lost_digits
+from thermodata.modelling.model_file.transfer.law import free_law, given_law
+from thermodata.modelling.model_file.values.own_units import in_unit
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
 NAME = "transfer_function"

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from thermodata.errors import SpecError, nearest
-from thermodata.modelling.model_file.prediction_file import Rows, read_rows
+from thermodata.modelling.model_file.prediction.file import Rows, read_rows
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Effect, Float1D, Float2D, Gain
 from thermodata.schema.words.sentences import counted

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from thermodata.errors import SpecError, UsageError, nearest
-from thermodata.modelling.model_file.prediction_cells import Numbers, numbers_of, read_cells
+from thermodata.modelling.model_file.prediction.cells import Numbers, numbers_of, read_cells
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.number import is_empty
 from thermodata.schema.units.quantity import delta_factor

@@ -10,8 +10,8 @@ from thermodata.effect.binding import ANY, unnamed
 from thermodata.effect.places import holds, shown
 from thermodata.errors import SpecError, unknown_name
 from thermodata.modelling.inputs.drivers import names_of
-from thermodata.modelling.model_file.driver_quantity import refuse_another_quantity
-from thermodata.modelling.model_file.responses import MissingChannelError, no_channel
+from thermodata.modelling.model_file.channels.driver_quantity import refuse_another_quantity
+from thermodata.modelling.model_file.channels.responses import MissingChannelError, no_channel
 from thermodata.plugin import Effect
 from thermodata.schema.files.model import Driver, Place
 from thermodata.view.grid.dataset import ChannelInfo
