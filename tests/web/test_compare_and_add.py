@@ -25,7 +25,7 @@ from thermodata.store.keep.check import check_store
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.residuals import against, predicted_tests, residuals
 from thermodata.view.lists.models import model_rows
-from thermodata.web.pages.compare_charts import correlated
+from thermodata.web.pages.parts.compare_charts import correlated
 from thermodata.web.work import Work
 
 from .client import Client

@@ -20,8 +20,8 @@ from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis
 from thermodata.store.catalogue.looks import count_locked_look
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.stale import fitted_again
-from thermodata.web.pages.drawn import among, pair
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
+from thermodata.web.pages.parts.drawn import among, pair
 from thermodata.web.render import begun
 
 from .client import Client

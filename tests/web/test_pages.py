@@ -12,7 +12,7 @@ import pytest
 
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.web.pages.strip import strip_svg
+from thermodata.web.pages.parts.strip import strip_svg
 from thermodata.web.render import ends, environment
 
 from .client import Client

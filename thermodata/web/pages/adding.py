@@ -17,7 +17,7 @@ from thermodata.store.catalogue.models import StoredModel, find_model
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.lists.response_units import unit_of
 from thermodata.web.command import command
-from thermodata.web.pages.drawn import pair
+from thermodata.web.pages.parts.drawn import pair
 from thermodata.web.render import desk_of, page
 
 

@@ -14,7 +14,7 @@ from thermodata.view.lists.models import ModelRow, model_rows
 from thermodata.view.lists.overview import Asked, Sort, find_tests
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
-from thermodata.web.pages.strip import FULL_COLOUR, strip_svg
+from thermodata.web.pages.parts.strip import FULL_COLOUR, strip_svg
 from thermodata.web.query import number_in
 from thermodata.web.render import desk_of, page
 

@@ -32,8 +32,8 @@ from thermodata.view.lists.models import ModelRow, fitted_last, model_rows, term
 from thermodata.view.lists.response_units import response_units, told_together
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
-from thermodata.web.pages.compare_charts import correlated, maps, over_channel
-from thermodata.web.pages.compare_lines import (
+from thermodata.web.pages.parts.compare_charts import correlated, maps, over_channel
+from thermodata.web.pages.parts.compare_lines import (
     Line,
     largest,
     lines_of,
@@ -42,8 +42,8 @@ from thermodata.web.pages.compare_lines import (
     roles,
     with_differences,
 )
-from thermodata.web.pages.contributions import contribution_chart
-from thermodata.web.pages.drawn import pair
+from thermodata.web.pages.parts.contributions import contribution_chart
+from thermodata.web.pages.parts.drawn import pair
 from thermodata.web.render import desk_of, page
 
 _LISTED = 12  # the newest models, which stand there to be ticked; older ones are folded up

@@ -36,7 +36,7 @@ from thermodata.view.lists.models import ModelRow, model_rows
 from thermodata.view.lists.response_units import response_units, told_together, unit_of
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
-from thermodata.web.pages.drawn import among, pair
+from thermodata.web.pages.parts.drawn import among, pair
 from thermodata.web.render import desk_of, page
 
 # where the evidence behind a rung stands on the page

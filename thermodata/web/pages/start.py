@@ -22,7 +22,7 @@ from thermodata.store.catalogue.campaign_paths import campaign_paths
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
-from thermodata.web.pages.start_form import answered, form_state
+from thermodata.web.pages.parts.start_form import answered, form_state
 from thermodata.web.render import desk_of, page
 
 _MOST_BYTES = 4 << 20

@@ -24,7 +24,7 @@ from thermodata.view.lists.models import ModelRow, model_rows, role_in_model, te
 from thermodata.view.lists.response_units import measured_units, response_units
 from thermodata.web.chosen import WITHOUT, model_in
 from thermodata.web.command import command
-from thermodata.web.pages.test_chart import drawn_as_curve, test_chart
+from thermodata.web.pages.parts.test_chart import drawn_as_curve, test_chart
 from thermodata.web.query import seconds_in
 from thermodata.web.render import desk_of, page
 

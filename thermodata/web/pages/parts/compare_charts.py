@@ -15,7 +15,7 @@ from thermodata.view.curves.contributions import test_names
 from thermodata.view.curves.predictions import Prediction, residual_strips
 from thermodata.view.curves.residuals import Key, against
 from thermodata.view.lists.models import ModelRow
-from thermodata.web.pages.strip import FULL_COLOUR
+from thermodata.web.pages.parts.strip import FULL_COLOUR
 
 BINS = 120
 _MOST_LAG_S = 6 * 3600.0
