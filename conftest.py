@@ -80,7 +80,8 @@ def make_catalogue(once: Once) -> Iterator[Callable[[Path], None]]:
     the run, but for tests of `stores_made_anew`; and nothing waits until the disk has what was written, which tells
     only where the power fails. Processes that tests start do both as those of users do.
     """
-    from thermodata.store.catalogue import create, store
+    from thermodata.store.catalogue import store
+    from thermodata.store.catalogue.format import create
 
     right = create.create_catalogue
 

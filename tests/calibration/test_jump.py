@@ -16,7 +16,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.files.campaign import JumpCalibration
-from thermodata.store.catalogue.ddl import TABLES
+from thermodata.store.catalogue.format.ddl import TABLES
 
 SHORT = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 

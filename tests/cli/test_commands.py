@@ -14,8 +14,8 @@ import pytest
 from thermodata.cli.app import COMMANDS, Commands, cli
 from thermodata.errors import StoreError
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import save_findings
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.findings import save_findings
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.view.lists.events import about_test
 
 from ..commands import Said, Say

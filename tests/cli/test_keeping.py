@@ -13,7 +13,7 @@ import pytest
 
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import keep_answer
+from thermodata.store.catalogue.models.findings import keep_answer
 
 from ..commands import Say
 from .conftest import write_campaign

@@ -13,8 +13,8 @@ from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_loc
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.store.catalogue import findings
-from thermodata.store.catalogue import models as catalogue
+from thermodata.store.catalogue.models import findings
+from thermodata.store.catalogue.models import fits as catalogue
 from thermodata.view.grid.dataset import ChannelInfo
 
 CHANNELS = {n: ChannelInfo(n, "temperature", "degC") for n in ("T_a", "T_b")}

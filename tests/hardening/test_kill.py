@@ -21,7 +21,7 @@ import store_fakes  # noqa: E402
 import whole  # noqa: E402
 
 from thermodata.store import Store  # noqa: E402
-from thermodata.store.catalogue.ddl import FORMAT  # noqa: E402
+from thermodata.store.catalogue.format.ddl import FORMAT  # noqa: E402
 from thermodata.store.ingest.reading import campaign_files  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
 from thermodata.store.keep.gc import gc  # noqa: E402

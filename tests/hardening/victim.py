@@ -98,7 +98,7 @@ def main(words: Sequence[str]) -> None:
 
     from thermodata.store import Store
     from thermodata.store.base import connection
-    from thermodata.store.catalogue import migrate
+    from thermodata.store.catalogue.format import migrate
     from thermodata.store.ingest.run import ingest
     from thermodata.store.keep.forget import forget
     from thermodata.store.keep.gc import gc

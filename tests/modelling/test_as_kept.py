@@ -23,10 +23,10 @@ from thermodata.report.text.fit import history_text
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis
-from thermodata.store.catalogue.looks import open_in
-from thermodata.store.catalogue.models import find_model
-from thermodata.store.catalogue.stale import came_after_line, stale_line
+from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model
+from thermodata.store.catalogue.models.looks import open_in
+from thermodata.store.catalogue.models.stale import came_after_line, stale_line
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.forget import forget
 from thermodata.store.trace.lineage import trace

@@ -16,8 +16,8 @@ from thermodata.schema.answers.candidate import Candidate, LeftOut
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import save_diagnosis
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.findings import save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.grid.load import data_version

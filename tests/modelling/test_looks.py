@@ -12,7 +12,7 @@ from thermodata.modelling import run
 from thermodata.modelling.named import newest_model
 from thermodata.report.collected.collect import collect
 from thermodata.report.page.page import locked_note
-from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+from thermodata.store.catalogue.models.looks import count_locked_look, locked_looks
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 

@@ -12,7 +12,7 @@ import thermodata
 from thermodata.modelling import run
 from thermodata.modelling.named import newest_model, of_which_version
 from thermodata.notebook.stale import NoBandWarning, StaleModelWarning
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.forget import forget
 from thermodata.view.grid.dataset import Dataset

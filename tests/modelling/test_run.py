@@ -27,8 +27,8 @@ from thermodata.report.text.fit import before_after_text, history_text
 from thermodata.report.words.numbers import pooled
 from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import save_diagnosis
-from thermodata.store.catalogue.models import find_model, model_chain
+from thermodata.store.catalogue.models.findings import save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model, model_chain
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 

@@ -21,7 +21,7 @@ from thermodata.modelling.versions.as_foretold import beside_foretold
 from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.store.catalogue.findings import save_diagnosis
+from thermodata.store.catalogue.models.findings import save_diagnosis
 from thermodata.view.grid.dataset import Dataset
 
 from ..answers import candidate, diagnosis

@@ -14,8 +14,8 @@ from thermodata.modelling.versions.slips import lines_of_test, with_lines
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.slip_ids import slip_ids
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import save_diagnosis
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.findings import save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.view.grid.dataset import Dataset
 
 from ..answers import diagnosis

@@ -14,9 +14,9 @@ import pytest
 from thermodata.errors import StoreError
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.store import Store
-from thermodata.store.catalogue.ddl import FORMAT, TABLES
-from thermodata.store.catalogue.document import KEPT, read_document
-from thermodata.store.catalogue.migrate import STEPS
+from thermodata.store.catalogue.format.ddl import FORMAT, TABLES
+from thermodata.store.catalogue.format.document import KEPT, read_document
+from thermodata.store.catalogue.format.migrate import STEPS
 from thermodata.store.ingest.run import ingest
 
 # of the tables and of the documents that they keep, by format

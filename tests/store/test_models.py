@@ -14,9 +14,9 @@ from thermodata.schema.answers.diagnosis import Artefact, Diagnosis, WeakSpot
 from thermodata.schema.answers.result import FitResult, Parameter, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis, save_findings
-from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looks_of
-from thermodata.store.catalogue.models import find_model, model_chain, save_fit
+from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis, save_findings
+from thermodata.store.catalogue.models.fits import find_model, model_chain, save_fit
+from thermodata.store.catalogue.models.looks import count_locked_look, locked_looks, looks_of
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.forget import forget
 from thermodata.store.keep.gc import gc

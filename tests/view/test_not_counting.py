@@ -5,7 +5,7 @@ from __future__ import annotations
 import duckdb
 import pytest
 
-from thermodata.store.catalogue.ddl import TABLES
+from thermodata.store.catalogue.format.ddl import TABLES
 from thermodata.view.query.not_counting import values_that_do_not_count
 
 

@@ -14,7 +14,7 @@ import pytest
 from thermodata.cli import main
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
-from thermodata.store.catalogue.models import save_fit
+from thermodata.store.catalogue.models.fits import save_fit
 
 from ..view.conftest import Builder
 from .client import Client

@@ -19,7 +19,7 @@ from thermodata.modelling.remove import remove
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.store import Store
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.check import check_store
 from thermodata.view.curves.predictions import Prediction

@@ -12,7 +12,7 @@ import pytest
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.models import save_fit
+from thermodata.store.catalogue.models.fits import save_fit
 
 from ..view.conftest import Builder
 from .client import Client

@@ -16,10 +16,10 @@ from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis
-from thermodata.store.catalogue.looks import count_locked_look
-from thermodata.store.catalogue.models import find_model
-from thermodata.store.catalogue.stale import fitted_again
+from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model
+from thermodata.store.catalogue.models.looks import count_locked_look
+from thermodata.store.catalogue.models.stale import fitted_again
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
 from thermodata.web.pages.parts.drawn import among, pair
 from thermodata.web.render import begun

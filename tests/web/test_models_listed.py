@@ -13,8 +13,8 @@ from thermodata.modelling.named import newest_model
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import save_diagnosis
-from thermodata.store.catalogue.models import find_model, save_fit
+from thermodata.store.catalogue.models.findings import save_diagnosis
+from thermodata.store.catalogue.models.fits import find_model, save_fit
 from thermodata.view.lists.models import model_rows
 
 from ..answers import diagnosis

@@ -69,7 +69,7 @@ def kept_diagnosis(store: Store, ref: str, response: str | None = None) -> Diagn
 
 def _kept(store: Store, model: Loaded, response: str | None, key: str) -> Diagnosis | None:
     """What was asked for last is the model's diagnosis, whose ranks `add` takes."""
-    from thermodata.store.catalogue.findings import kept_answer, load_diagnosis, save_diagnosis
+    from thermodata.store.catalogue.models.findings import kept_answer, load_diagnosis, save_diagnosis
 
     text = kept_answer(store, model.identity, _question(response), key)
     found = None if text is None else Diagnosis.model_validate_json(text)
@@ -88,9 +88,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
 
     tell: is told how many candidates are done, of how many. response: of which of the model's, by default of that of
     which most is left."""
-    from thermodata.store.catalogue.findings import keep_answer, kept_answer, save_diagnosis
-    from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import find_model, model_chain
+    from thermodata.store.catalogue.models.findings import keep_answer, kept_answer, save_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model, model_chain
+    from thermodata.store.catalogue.models.looks import count_locked_look
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
@@ -140,8 +140,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     data opened it for, and for errors that were shown before. UsageError: no such candidate, a rank of another
     response's diagnosis, or no locked test that both models can predict.
     """
-    from thermodata.store.catalogue.findings import keep_answer, kept_answer, load_diagnosis
-    from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+    from thermodata.store.catalogue.models.findings import keep_answer, kept_answer, load_diagnosis
+    from thermodata.store.catalogue.models.looks import count_locked_look, locked_looks
 
     model = load(store, ref, anew=True)
     tests = model.fitted.tests(model.data)
@@ -198,7 +198,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
 
 def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
     """An answer that the store holds, with what may be known otherwise since."""
-    from thermodata.store.catalogue.looks import locked_looks
+    from thermodata.store.catalogue.models.looks import locked_looks
 
     now = {
         "probability": claimed(store, model.identity, known.response).get(known.candidate),

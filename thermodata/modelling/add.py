@@ -30,8 +30,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     plain: no second lags. Tests whose log the stored diagnosis found wrong are left out (`unsound`).
     `before` has the parent's scores, `added` the ids of what is new, `notes` why.
     UsageError where one is named twice."""
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model
 
     parent = find_model(store, ref)
     old = load(store, parent.model, anew=True)
@@ -96,7 +96,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
 def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:
     """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
     rank, and for one where the diagnosis is of another response than is named."""
-    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models.findings import load_diagnosis
 
     name = str(candidate)
     if name.isdigit():

@@ -37,11 +37,11 @@ def fit_file(store: Store, path: Path) -> FitResult:
 @again_where_data_changed
 def fit_named(store: Store, ref: str) -> FitResult:
     """Fit and save: a model file, or a model of the store again after its data changed."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     if is_file(ref):
         return fit_file(store, Path(ref))
-    from thermodata.store.catalogue.renamed import told
+    from thermodata.store.catalogue.models.renamed import told
 
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
@@ -52,7 +52,7 @@ def fit_named(store: Store, ref: str) -> FitResult:
 
 def model_named(store: Store, ref: str) -> str:
     """As the store knows it: a path is fitted (or found, where that fit exists), a name stays one."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     if not is_file(ref):
         return ref
@@ -78,7 +78,7 @@ def newest_model(store: Store) -> str:
 def of_which_version(store: Store, ref: str) -> str | None:
     """Where a name leads to one of several versions that are as far from the first and differ, in effects or in the
     tests that they were fitted to (and their data are as they were): which it is, and the others; else None."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
     from thermodata.view.lists.models import model_rows
 
     rows = model_rows(store)
@@ -106,7 +106,7 @@ def of_which_version(store: Store, ref: str) -> str | None:
 def name_taken_over(store: Store, model: str) -> str | None:
     """Where a name leads to this model now, and a longer chain of versions has it too: what each of them is; else
     None."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
     from thermodata.view.lists.models import model_rows
 
     rows = model_rows(store)

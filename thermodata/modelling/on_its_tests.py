@@ -20,7 +20,7 @@ SAME = 1e-3  # relative: what a fit that was made again differs by
 def on_its_tests(store: Store, model: Loaded) -> Loaded:
     """The same model, fitted again to what it was fitted to, without the calibration and verification tests that came
     later; as it is where none did, where its data changed, and where it no longer comes out as the store has it."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     stored = find_model(store, model.identity)
     if not model.kept or stored.stale:

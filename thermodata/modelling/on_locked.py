@@ -35,8 +35,8 @@ def locked_errors(store: Store, ref: str, response: str | None = None) -> tuple[
 
 
 def _of_response(store: Store, model: Loaded, response: FittedResponse) -> tuple[LockedError, bool]:
-    from thermodata.store.catalogue.findings import keep_answer, kept_answer
-    from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+    from thermodata.store.catalogue.models.findings import keep_answer, kept_answer
+    from thermodata.store.catalogue.models.looks import count_locked_look, locked_looks
 
     question = f"{QUESTION} {response.name}"
     made_from = [model.identity, model.fitted_to, model.data.data_version, __version__]

@@ -19,7 +19,7 @@ from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.store import Store
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 
 @again_where_data_changed
@@ -28,7 +28,7 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     with it, and the others keep their ids. Where that takes back all that was added to an earlier version, it is fitted
     as that one was; else verification tests that helped to choose what is left stay fitted. `before` has the parent's
     scores, `notes` what went. UsageError for no such effect."""
-    from thermodata.store.catalogue.models import find_model, model_chain
+    from thermodata.store.catalogue.models.fits import find_model, model_chain
 
     parent = find_model(store, ref)
     ids = term_ids(parent.spec.effects)

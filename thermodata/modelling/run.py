@@ -56,7 +56,7 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     """ref: an id, a unique prefix, or a name (its newest version). On the data of its fit it is fitted again, which
     gives the same and takes milliseconds; where they changed its parameters are those that the store holds. anew: the
     fit to the data as they are now is what is asked for."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     stored = find_model(store, ref)
     refuse_not_installed(stored.spec, stored.model)
@@ -89,8 +89,8 @@ def fit_once(
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
     `notes` of the result, which say as well where the model's name leads to a newer version. read: the data that its
     caller looked at. DataChangedError where the data changed before it was kept."""
-    from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import save_fit
+    from thermodata.store.catalogue.models.fits import save_fit
+    from thermodata.store.catalogue.models.looks import count_locked_look
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
@@ -133,7 +133,7 @@ fit = again_where_data_changed(fit_once)
 
 def _led_past(store: Store, result: FitResult) -> list[str]:
     """What was fitted before keeps its place among the versions, and its name leads to the newest of them."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     newest = find_model(store, result.name).model
     if newest == result.model:
@@ -153,7 +153,7 @@ def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
 def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
     """Each model's parameters, scores and checks; as its fit stored them where its data changed since, and where an
     effect of it is not installed, which a note says. Tests that are new to a model are scored too."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     results = []
     for ref in refs:
@@ -174,7 +174,7 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
 def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
     """Each model's error less that of the first, test by test; none for one model, and none where the data of one
     changed since its fit."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     if len(refs) < 2 or any(find_model(store, ref).stale for ref in refs):
         return []
@@ -185,7 +185,7 @@ def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
 def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:
     """The models beside each other on every open test (or on those named), each against the reference. UsageError
     where one of them was fitted to another version of the data: their differences would be those of the data."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
     against = find_model(store, reference).model
@@ -198,7 +198,7 @@ def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Seque
     """How far the model carries over to each test and machine of its campaigns, which are kept as findings of the
     model; or to the tests or campaigns named, of the whole store. UsageError for a named test that is unknown, locked,
     or has nothing to carry over to."""
-    from thermodata.store.catalogue.findings import save_findings
+    from thermodata.store.catalogue.models.findings import save_findings
 
     model = load(store, ref)
     data, more = model.data, list[Portability]()
@@ -284,7 +284,7 @@ def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model
 def _model_named(store: Store, name: str, base: Path | None) -> Model:
     """A file beside the model's own, or a model of the store."""
     from thermodata.schema.files.load import load_model
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     path = (base or Path()) / name
     if name.endswith((".yaml", ".yml")):

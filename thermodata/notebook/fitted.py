@@ -49,7 +49,7 @@ class Fit(Shown):
     @property
     def stale(self) -> str | None:
         """What of its data changed since it was fitted, and what to do; None where nothing did."""
-        from thermodata.store.catalogue.stale import stale_line
+        from thermodata.store.catalogue.models.stale import stale_line
 
         return stale_line(self.store, self.id)
 
@@ -246,7 +246,7 @@ class Fit(Shown):
 
 def stored_fit(store: Store, ref: str) -> Fit:
     """A version of the store: an id, a unique prefix, or a name (its newest)."""
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     return Fit(store, find_model(store, ref).result)
 

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 def pictures(store: Store, model: str, key: tuple[str, str], response: str) -> dict[str, Chart | HeatMap]:
     """Title -> chart. key: (campaign, test) of the one that is shown as a whole."""
     from thermodata.modelling.run import load
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model
 
     stored = find_model(store, model)
     chain = [m for m in (stored.parent, stored.model) if m is not None]

@@ -27,7 +27,7 @@ def heed_no_band(why_not: str | None) -> None:
 
 def heed(store: Store, models: Iterable[str]) -> None:
     """A `StaleModelWarning` for each that is stale, where the call stands that asked."""
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.stale import stale_line
 
     for line in dict.fromkeys(filter(None, (stale_line(store, model) for model in models))):
         warnings.warn(line, StaleModelWarning, stacklevel=_callers() + 1)

@@ -20,6 +20,8 @@ def model_in(store: Store, models: Sequence[ModelRow], named: str | None) -> Mod
     by_id = {m.model: m for m in models}
     if named in by_id:
         return by_id[named]
-    from thermodata.store.catalogue.models import find_model  # pydantic: a page of a known model is shown without it
+    from thermodata.store.catalogue.models.fits import (
+        find_model,  # pydantic: a page of a known model is shown without it
+    )
 
     return by_id.get(find_model(store, named).model, fitted_last(models))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from thermodata.errors import UsageError
 from thermodata.store import Store
-from thermodata.store.catalogue.create import CATALOGUE
+from thermodata.store.catalogue.format.create import CATALOGUE
 
 DEFAULT_STORE = "thermodata.store"
 

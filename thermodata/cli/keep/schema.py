@@ -62,7 +62,7 @@ def schema_command(session: Session, document: str | None, docs: bool, write: Pa
 def documents() -> dict[str, str]:
     """File name -> text of every published document; the store's floor gives its SQL, `schema` the rest."""
     from thermodata.schema import publish
-    from thermodata.store.catalogue.ddl import FORMAT, TABLES
+    from thermodata.store.catalogue.format.ddl import FORMAT, TABLES
 
     head = f"-- Tables of a thermodata store, format {FORMAT}. Generated: thermodata schema --write schemas\n"
     return {**publish.documents(), "store.sql": head + TABLES}

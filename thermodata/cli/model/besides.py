@@ -47,7 +47,7 @@ def answer_against(
 def answer_contributions(session: Session, store: Store, models: Sequence[str], test: str) -> None:
     """Print what each effect gives in a test. models: ids, prefixes or names."""
     from thermodata.report.text.fit import contributions_text
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
     from thermodata.view.curves.contributions import contributions, open_test
     from thermodata.view.lists.models import model_rows
 

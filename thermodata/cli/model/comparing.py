@@ -102,9 +102,9 @@ def _answer_scores(session: Session, store: Store, models: list[str]) -> None:
     from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.collected.spots import weak_spots_of
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.stale import stale_line
 
     results = compare(store, models)
     unknown = [r for r in results if not_installed(find_model(store, r.model).spec)]
@@ -180,7 +180,7 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...], ca
     """
     from thermodata.modelling.compare.elsewhere import other_campaigns
     from thermodata.modelling.run import transfer
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     store = session.store()
     found = resolve(store, model)

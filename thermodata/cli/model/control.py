@@ -102,7 +102,7 @@ def model_command(
     from thermodata.export.control.write import files_of
     from thermodata.modelling.inputs import moved
     from thermodata.modelling.run import load
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.stale import stale_line
 
     store = session.store()
     if target == "yaml":
@@ -163,8 +163,8 @@ def _program_text(loaded: Loaded, program: Program, written: Written) -> str:
 def _model_file(session: Session, store: Store, model: str, folder: Path, force: bool) -> None:
     """Writes a model's file, and answers."""
     from thermodata.export.model_file import model_path, write_model
-    from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.stale import stale_line
 
     stored = find_model(store, model)
     _refuse_to_replace([model_path(stored.spec, folder)], force)

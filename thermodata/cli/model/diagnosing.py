@@ -85,7 +85,7 @@ def _is_model(store: Store, text: str) -> bool:
     """Whether a word stands for a model: a candidate is a rank, or names its channels after a colon."""
     from thermodata.errors import UsageError
     from thermodata.modelling.named import is_file
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     if ":" in text or (text.isdigit() and len(text) < SHORTEST_ID):
         return False
@@ -112,9 +112,9 @@ def _answer_locked(session: Session, store: Store, refs: tuple[str, ...], respon
 def _answered_before(store: Store, ref: str, response: str | None) -> Diagnosis | None:
     """What the store holds of this question, whatever it was made from."""
     from thermodata.schema.answers.diagnosis import Diagnosis
-    from thermodata.store.catalogue.document import read_document
-    from thermodata.store.catalogue.findings import kept_answer
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.format.document import read_document
+    from thermodata.store.catalogue.models.findings import kept_answer
+    from thermodata.store.catalogue.models.fits import find_model
 
     model = find_model(store, ref).model
     kept = kept_answer(store, model, "diagnose" if response is None else f"diagnose {response}")
@@ -140,8 +140,8 @@ def _said_otherwise(before: Diagnosis | None, now: Diagnosis) -> str | None:
 
 def _say_what_was_open(store: Store, ref: str) -> None:
     """Locked tests that were open when a model was fitted: what they confirm is not new to what came of it."""
-    from thermodata.store.catalogue.looks import open_in
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.looks import open_in
 
     found = open_in(store, find_model(store, ref).spec.campaign_ids)
     if found:

@@ -24,7 +24,7 @@ def orders_command(session: Session, model: str, method: str | None) -> None:
     from thermodata.modelling.run import orders
     from thermodata.schema.files.load import load_model
     from thermodata.store.base.counting import watched
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     store = session.store()
     is_file = model.endswith((".yaml", ".yml")) or Path(model).is_file()

@@ -93,7 +93,7 @@ def predict_command(
 def _answer(session: Session, store: Store, logs: LogsPredicted, out: Path | None) -> None:
     from thermodata.modelling.predictions.beyond import beyond
     from thermodata.modelling.predictions.carried_on import said
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.stale import stale_line
 
     loaded, band, made = logs.loaded, logs.band, logs.made
     rows = [_row(p) for p in made]

@@ -34,7 +34,7 @@ def report_command(session: Session, model: str | None, out: Path | None) -> Non
     """
     from thermodata.report import build_report
     from thermodata.report.page.write import page_name
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     store = session.store()
     found = find_model(store, resolve(store, model, session))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from thermodata.modelling.seen.as_system import Seen, SeenPath
     from thermodata.modelling.seen.residual_tests import Against
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 F = TypeVar("F", bound=Callable[..., object])
 DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
@@ -50,8 +50,8 @@ def show_command(
     from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
-    from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.stale import stale_line
 
     pictures = _pictures(png=png, svg=svg, pdf=pdf)
     store = session.store()
@@ -95,7 +95,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
     from thermodata.cli.terminal.common import plain
     from thermodata.modelling.model_file.not_installed import as_stored
     from thermodata.report.text.fit import fit_text
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.stale import stale_line
 
     warnings.warn(as_stored(lacking, stored.name), stacklevel=2)
     payload = {

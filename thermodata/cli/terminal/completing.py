@@ -89,8 +89,8 @@ def _channels(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
 def _candidates(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
     """Ids and ranks of the model's last diagnosis, and the steps that it told."""
     from thermodata.schema.answers.slip_ids import slip_ids
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model
 
     found = load_diagnosis(store, find_model(store, str(words.get("model"))).model)
     if found is None:
@@ -101,7 +101,7 @@ def _candidates(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _effects_of(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
     from thermodata.modelling.model_file.resolve import term_ids
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.fits import find_model
 
     effects = find_model(store, str(words.get("model"))).spec.effects
     return [(i, e.effect) for i, e in zip(term_ids(effects), effects, strict=True)]

@@ -19,8 +19,8 @@ def resolve(store: Store, ref: str | None, session: Session | None = None) -> st
     on stderr where models of several campaigns have the name, or versions alike in number, where the data of the model
     changed since its fit, and where calibration tests came after it: every command that uses one comes by here."""
     from thermodata.modelling.named import model_named, newest_model, of_which_campaign, of_which_version
-    from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import came_after_line, stale_line
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.stale import came_after_line, stale_line
 
     found = newest_model(store) if ref is None else model_named(store, ref)
     stored = find_model(store, found)
@@ -36,7 +36,7 @@ def resolve(store: Store, ref: str | None, session: Session | None = None) -> st
 def tell_same(store: Store, refs: Sequence[str], models: Sequence[str]) -> None:
     """Says on stderr which of several names are of one model, and by what its versions before are called: a name is of
     its newest version. models: what each of refs was resolved to."""
-    from thermodata.store.catalogue.models import find_model, model_chain
+    from thermodata.store.catalogue.models.fits import find_model, model_chain
 
     ids = [find_model(store, m).model for m in models]
     for model in dict.fromkeys(m for m in ids if ids.count(m) > 1):
@@ -51,6 +51,6 @@ def tell_same(store: Store, refs: Sequence[str], models: Sequence[str]) -> None:
 
 def with_stale(store: Store, model: str, answer: Any) -> dict[str, Any]:
     """The answer as JSON has it, with `stale`: the line on a model whose data changed since its fit, or null."""
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.models.stale import stale_line
 
     return {**plain(answer), "stale": stale_line(store, model)}

@@ -43,8 +43,8 @@ def shape_left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
 
 def _claimed_before(store: Store, model: Loaded) -> tuple[str, Candidate] | None:
     """(response, first claim) of the last version that was given any, where the model is the fit with them."""
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import model_chain
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import model_chain
 
     for earlier in reversed(model_chain(store, model.identity)[:-1]):
         found = load_diagnosis(store, earlier.model)

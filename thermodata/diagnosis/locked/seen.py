@@ -51,9 +51,9 @@ def not_seen(
 ) -> list[Key]:
     """Those that a confirmation looks at anew: what a diagnosis opened for the same, on the same data, is no look, nor
     are errors that were shown."""
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.looks import looked_for
-    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model
+    from thermodata.store.catalogue.models.looks import looked_for
 
     claims, diagnosis = [*claimed(store, model.identity, response.name)], load_diagnosis(store, model.identity)
     now, seen = model.data.data_version, set(shown)
@@ -66,7 +66,7 @@ def not_seen(
 
 def claimed(store: Store, model: str, response: str) -> dict[str, float | None]:
     """What the stored diagnosis claims for this response, with its probability."""
-    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models.findings import load_diagnosis
 
     found = load_diagnosis(store, model)
     asked = found.candidates if found is not None and found.response == response else []

@@ -9,12 +9,12 @@ from thermodata.errors import UsageError
 
 if TYPE_CHECKING:
     from thermodata.store import Store
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 
 def refuse_stale(store: Store, models: Iterable[StoredModel], reference: str) -> None:
     """UsageError where one of them was fitted before a change: it says what to fit, or which ids they have since."""
-    from thermodata.store.catalogue.stale import fitted_again
+    from thermodata.store.catalogue.models.stale import fitted_again
 
     models = list(models)
     old = [stored for stored in models if stored.stale]

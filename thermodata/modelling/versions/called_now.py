@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def advised_by_names_now(store: Store, campaigns: Sequence[str]) -> Iterator[None]:
     """Where a channel is missing inside of it that fitted models knew: its error names the channel of the same
     signal."""
-    from thermodata.store.catalogue.renamed import renamed
+    from thermodata.store.catalogue.models.renamed import renamed
 
     try:
         yield

@@ -12,7 +12,7 @@ from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 
 def as_chosen(stored: StoredModel, data: Dataset) -> Model:

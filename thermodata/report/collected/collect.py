@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.store import Store
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
     from thermodata.view.grid.dataset import Dataset
 
 
@@ -43,8 +43,8 @@ def collect(store: Store, ref: str) -> ReportData:
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
     from thermodata.modelling.versions.result import make_result
-    from thermodata.store.catalogue.findings import load_diagnosis
-    from thermodata.store.catalogue.models import find_model, model_chain
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+    from thermodata.store.catalogue.models.fits import find_model, model_chain
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
@@ -94,7 +94,7 @@ def collect(store: Store, ref: str) -> ReportData:
 def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, removed_only: bool) -> _Reason:
     """removed_only: the last version takes effects out, which no answer is a reason for."""
     from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
-    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models.findings import load_diagnosis
 
     earlier = [load_diagnosis(store, m.model) for m in chain[:-1]]
     asked = _reason(earlier)
@@ -172,7 +172,7 @@ def _calibrations(store: Store, campaigns: Sequence[str]) -> list[dict[str, Any]
 
 
 def _looks(store: Store, campaigns: Sequence[str]) -> dict[str, int]:
-    from thermodata.store.catalogue.looks import looks_of
+    from thermodata.store.catalogue.models.looks import looks_of
 
     return {"/".join(key): len(looks) for key, looks in looks_of(store, campaigns).items()}
 

@@ -15,7 +15,7 @@ from thermodata.view.lists.response_units import response_units, told_together
 
 if TYPE_CHECKING:
     from thermodata.store import Store
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 UNNAMED_TERMS = ("lag", "static")
 """Effects that are told by their channels: their names say nothing."""
@@ -86,8 +86,8 @@ def how_it_went(errors: Sequence[float]) -> str:
 def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
     """The versions that led to a model, oldest first, as `thermodata history --json` prints them: *rmse_um over the
     tests that a version predicts, common over those that all do; gone: tests whose results were forgotten."""
-    from thermodata.store.catalogue.models import model_chain
-    from thermodata.store.catalogue.stale import results_gone
+    from thermodata.store.catalogue.models.fits import model_chain
+    from thermodata.store.catalogue.models.stale import results_gone
 
     chain = model_chain(store, ref)
     units = chain_units(store, chain)

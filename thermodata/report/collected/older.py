@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis
-    from thermodata.store.catalogue.models import StoredModel
+    from thermodata.store.catalogue.models.fits import StoredModel
 
 
 def is_of_other_data(found: Diagnosis | None, fitted_to: str, now: str) -> bool:

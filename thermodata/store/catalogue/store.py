@@ -12,9 +12,16 @@ from typing import TYPE_CHECKING
 from thermodata.errors import StoreError, UsageError
 from thermodata.store.base import connection
 from thermodata.store.base.files import write_text
-from thermodata.store.catalogue.create import CATALOGUE, MARK, create_catalogue, new_mark, not_begun, regenerate_views
+from thermodata.store.catalogue.format.create import (
+    CATALOGUE,
+    MARK,
+    create_catalogue,
+    new_mark,
+    not_begun,
+    regenerate_views,
+)
+from thermodata.store.catalogue.format.migrate import check_format, migrate
 from thermodata.store.catalogue.lock import catalogue_lock
-from thermodata.store.catalogue.migrate import check_format, migrate
 from thermodata.store.views.version import of_this_version
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from thermodata.schema.files.load import load_campaign
 from thermodata.schema.files.locate import located, placed
 from thermodata.schema.words.sentences import counted
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.create import new_mark
+from thermodata.store.catalogue.format.create import new_mark
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.another_campaign import is_same_place, refuse_another
 from thermodata.store.ingest.catalogue_rows import calibration_row

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import TEMPORARY
-from thermodata.store.catalogue.create import LAYERS
+from thermodata.store.catalogue.format.create import LAYERS
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import StoreError, UsageError
 from thermodata.store.base import connection
 from thermodata.store.base.files import TEMPORARY, publish, temporary, write_error
-from thermodata.store.catalogue.ddl import TABLES
+from thermodata.store.catalogue.format.ddl import TABLES
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from typing import Any
 from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.came_after import came_after
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.came_after import came_after
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.known.file_versions import SUPERSEDED
 from thermodata.store.raw.raw_stream import RawStream

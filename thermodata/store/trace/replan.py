@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.schema.files.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.document import read_document
+from thermodata.store.catalogue.format.document import read_document
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, span
 from thermodata.store.tidy.clock.undated import bases

@@ -41,7 +41,7 @@ class About:
 def about_test(store: Store, campaign: str, test: str) -> About:
     """looks: how often its lock was opened. open_in: models that were fitted to it, or checked on it, while it was
     open."""
-    from thermodata.store.catalogue.looks import locked_looks, open_in
+    from thermodata.store.catalogue.models.looks import locked_looks, open_in
 
     own = [campaign, test]
     with store.reader() as con:

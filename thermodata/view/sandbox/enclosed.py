@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.store.base.connection import literal
-from thermodata.store.catalogue.create import regenerate_views
+from thermodata.store.catalogue.format.create import regenerate_views
 from thermodata.store.views.wide import file_list
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
-from thermodata.store.catalogue.findings import load_diagnosis
-from thermodata.store.catalogue.models import StoredModel, find_model
+from thermodata.store.catalogue.models.findings import load_diagnosis
+from thermodata.store.catalogue.models.fits import StoredModel, find_model
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.lists.response_units import unit_of
 from thermodata.web.command import command

@@ -23,8 +23,8 @@ from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
-from thermodata.store.catalogue.models import find_model, model_chain
-from thermodata.store.catalogue.stale import stale_line
+from thermodata.store.catalogue.models.fits import find_model, model_chain
+from thermodata.store.catalogue.models.stale import stale_line
 from thermodata.view.curves.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.curves.predictions import residual_courses
 from thermodata.view.curves.residuals import Key, predicted_tests, residuals

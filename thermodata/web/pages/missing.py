@@ -26,10 +26,10 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.findings import load_diagnosis
-from thermodata.store.catalogue.looks import looks_of
-from thermodata.store.catalogue.models import StoredModel, find_model
-from thermodata.store.catalogue.stale import all_fitted_again
+from thermodata.store.catalogue.models.findings import load_diagnosis
+from thermodata.store.catalogue.models.fits import StoredModel, find_model
+from thermodata.store.catalogue.models.looks import looks_of
+from thermodata.store.catalogue.models.stale import all_fitted_again
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.grid.load import data_version
 from thermodata.view.lists.models import ModelRow, model_rows

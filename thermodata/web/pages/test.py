@@ -179,7 +179,7 @@ def _model(store: Store, models: list[ModelRow], given: Mapping[str, str]) -> Mo
 def _stale(store: Store, model: ModelRow | None) -> str | None:
     if model is None or not model.stale:
         return None
-    from thermodata.store.catalogue.stale import stale_line  # it loads model files, which no plot needs
+    from thermodata.store.catalogue.models.stale import stale_line  # it loads model files, which no plot needs
 
     return stale_line(store, model.model)
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.models import BACK, STALE
+from thermodata.store.catalogue.models.fits import BACK, STALE
 from thermodata.store.ingest.known.state import VERSION, State, what_differs
 
 if TYPE_CHECKING:

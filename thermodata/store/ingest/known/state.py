@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 
 from thermodata.store.base.files import key_of
-from thermodata.store.catalogue.models import GONE
-from thermodata.store.catalogue.renamed import CHANNELS, origins
+from thermodata.store.catalogue.models.fits import GONE
+from thermodata.store.catalogue.models.renamed import CHANNELS, origins
 from thermodata.store.ingest.known.inventory import Row, comparable, meta_of
 
 Rows = Mapping[str, Mapping[str, Sequence[Row]]]

@@ -11,9 +11,9 @@ from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.document import read_document
-from thermodata.store.catalogue.prediction_files import write_prediction
-from thermodata.store.catalogue.renamed import renamed, with_names
+from thermodata.store.catalogue.format.document import read_document
+from thermodata.store.catalogue.models.prediction_files import write_prediction
+from thermodata.store.catalogue.models.renamed import renamed, with_names
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:

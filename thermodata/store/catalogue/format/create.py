@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from thermodata.store.base import connection
 from thermodata.store.base.files import publish, temporary, write_text
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.ddl import FORMAT, TABLES
+from thermodata.store.catalogue.format.ddl import FORMAT, TABLES
 from thermodata.version import __version__
 
 if TYPE_CHECKING:

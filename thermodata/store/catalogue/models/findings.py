@@ -14,7 +14,7 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.locked_error import LockedError
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.moment import utc_now
-from thermodata.store.catalogue.document import readable
+from thermodata.store.catalogue.format.document import readable
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from thermodata.schema.files.model import Model
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.came_after import came_after
-from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
-from thermodata.store.catalogue.renamed import told as told_names
+from thermodata.store.catalogue.models.came_after import came_after
+from thermodata.store.catalogue.models.fits import BACK, GONE, STALE, StoredModel, find_model
+from thermodata.store.catalogue.models.renamed import told as told_names
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change

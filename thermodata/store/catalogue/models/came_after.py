@@ -4,7 +4,7 @@ and a fit takes them in."""
 from __future__ import annotations
 
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.models import StoredModel
+from thermodata.store.catalogue.models.fits import StoredModel
 from thermodata.store.catalogue.store import Store
 
 # of tests that the fit knew and has no errors of

@@ -13,7 +13,7 @@ from thermodata.schema.answers.locked_error import LockedError
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.model import Model
-from thermodata.store.catalogue.ddl import FORMAT
+from thermodata.store.catalogue.format.ddl import FORMAT
 
 KEPT: tuple[type[BaseModel], ...] = (Campaign, Model, FitResult, Diagnosis, Confirmed, LockedError)
 """Which documents: where one changes, the store's format is to be raised."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import StoreError
 from thermodata.store.base import connection
 from thermodata.store.base.files import publish, temporary
-from thermodata.store.catalogue.ddl import FORMAT
+from thermodata.store.catalogue.format.ddl import FORMAT
 
 if TYPE_CHECKING:
     import duckdb
