@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.calibration.quality_data import clock, kinds, run
-from thermodata.calibration.quality.edges import across_steps, without_pauses
+from thermodata.calibration.quality.sudden.edges import across_steps, without_pauses
 from thermodata.plugin import Float1D
 from thermodata.schema.flag import Flag
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.ends.range import End, ends_of_ranges, plateau_at_extreme
+from thermodata.calibration.quality.ends.still import Reading
 from thermodata.calibration.quality.flags import flag_stream
-from thermodata.calibration.quality.range import End, ends_of_ranges, plateau_at_extreme
-from thermodata.calibration.quality.still import Reading
 from thermodata.schema.flag import Flag
 
 FINE = Reading(0.2, 0.005, 0.01, 0.66, moving=5000, stood_s=600.0, low=-20.3, low_n=1, high=142.067, high_n=2000)

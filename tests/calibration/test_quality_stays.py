@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality.stays import stays_at_extreme
+from thermodata.calibration.quality.ends.stays import stays_at_extreme
 from thermodata.plugin import Float1D
 
 N, CYCLE, MEASURES = 2400, 120, 24

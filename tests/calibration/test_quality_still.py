@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from thermodata.calibration.quality.still import Reading, read_elsewhere
+from thermodata.calibration.quality.ends.still import Reading, read_elsewhere
 
 FINE = Reading(step=0.2, finest=0.005, chance=0.01, alternates=0.66, moving=5000, stood_s=0.0)
 STOOD = Reading(step=0.0, finest=0.0, chance=1.0, alternates=0.0, moving=0, stood_s=3600.0)

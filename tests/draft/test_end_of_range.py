@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality.range import plateau_at_extreme
+from thermodata.calibration.quality.ends.range import plateau_at_extreme
 from thermodata.draft.make import draft_files
 
 T = np.arange(0.0, 4 * 3600, 10.0)

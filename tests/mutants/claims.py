@@ -962,7 +962,7 @@ MUTANTS = [
         ("tests/calibration/test_tread.py",),
     ),
     Mutant(
-        "thermodata/calibration/quality/step.py",
+        "thermodata/calibration/quality/sudden/step.py",
         "_BACK = 0.3",
         "_BACK = 0.0",
         "what comes back by itself is an offset",

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality.range import ends_of_ranges
-from thermodata.calibration.quality.still import Reading
+from thermodata.calibration.quality.ends.range import ends_of_ranges
+from thermodata.calibration.quality.ends.still import Reading
 from thermodata.store.tidy.flags.readings import reading_with
 from thermodata.store.tidy.values.chunk import Column
 

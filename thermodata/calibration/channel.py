@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from thermodata.calibration.platinum import CURVE, degrees
-from thermodata.calibration.quality.limit import AT_END
+from thermodata.calibration.quality.ends.limit import AT_END
 from thermodata.calibration.result import CalibrationResult, Sign
 from thermodata.calibration.scaling import Raw, apply_scaling
 from thermodata.errors import CalibrationError, UsageError

@@ -12,9 +12,9 @@ import numpy as np
 
 from thermodata.calibration.quality.column import ColumnInput
 from thermodata.calibration.quality.concise import concise
+from thermodata.calibration.quality.ends.range import ends_of_ranges
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.flags import flag_stream
-from thermodata.calibration.quality.range import ends_of_ranges
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError

@@ -15,7 +15,7 @@ from thermodata.calibration.facing import facing_axis, geometric_sign
 from thermodata.calibration.jump import checks
 from thermodata.calibration.jump.fit import JumpFit, answer, fit_plateaus
 from thermodata.calibration.jump.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
-from thermodata.calibration.quality.limit import impossible, sentinels
+from thermodata.calibration.quality.ends.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError

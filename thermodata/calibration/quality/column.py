@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from thermodata.calibration.quality.ends.range import Limits
 from thermodata.calibration.quality.event import QualityEvent, event_of, events_of
-from thermodata.calibration.quality.range import Limits
 from thermodata.calibration.quality.sun import least_count_of_sun
 from thermodata.calibration.quality.time import TimeFlags
 from thermodata.calibration.quality.value import RunStats, run_stats

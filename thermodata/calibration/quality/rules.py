@@ -11,12 +11,20 @@ from collections.abc import Callable
 import numpy as np
 
 from thermodata.calibration.quality.column import Marked
-from thermodata.calibration.quality.edges import without_pauses
+from thermodata.calibration.quality.ends.limit import (
+    AT_END,
+    NO_VALUE,
+    SAY_RANGE,
+    clipped,
+    impossible,
+    no_values,
+    sentinels,
+)
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
-from thermodata.calibration.quality.limit import AT_END, NO_VALUE, SAY_RANGE, clipped, impossible, no_values, sentinels
-from thermodata.calibration.quality.spike import spikes
-from thermodata.calibration.quality.step import Step, offset_steps, stood_before
+from thermodata.calibration.quality.sudden.edges import without_pauses
+from thermodata.calibration.quality.sudden.spike import spikes
+from thermodata.calibration.quality.sudden.step import Step, offset_steps, stood_before
 from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, rests
 from thermodata.calibration.quality.value import RunStats, held_runs
 from thermodata.plugin import Bool1D

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.calibration.quality.limit import no_values
+from thermodata.calibration.quality.ends.limit import no_values
 from thermodata.draft.courses.cuts import feeds_with_spindle, is_loaded
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality.range import plateau_at_extreme
+from thermodata.calibration.quality.ends.range import plateau_at_extreme
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of

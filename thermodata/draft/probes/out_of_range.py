@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality.stays import BAND, stays_at_extreme
+from thermodata.calibration.quality.ends.stays import BAND, stays_at_extreme
 from thermodata.plugin import Bool1D, Float1D
 
 LEAST = 0.02  # of the samples out of range, and in it

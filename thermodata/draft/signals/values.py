@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
-from thermodata.calibration.quality.limit import impossible, sentinels
+from thermodata.calibration.quality.ends.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
 from thermodata.draft.signals.numerals import bare_word, numerals_of
 from thermodata.errors import UsageError

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from thermodata.calibration.between_tests.levels import Levels
-from thermodata.calibration.quality.still import Reading
+from thermodata.calibration.quality.ends.still import Reading
 from thermodata.store.tidy.clock.source_clock import Clock
 from thermodata.store.tidy.flags.between import Verdict, levels_of
 

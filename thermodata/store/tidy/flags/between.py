@@ -14,8 +14,8 @@ from thermodata.calibration.between_tests.dead import dead_throughout
 from thermodata.calibration.between_tests.failing import offsets_between_tests
 from thermodata.calibration.between_tests.foreign import foreign_part
 from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
-from thermodata.calibration.quality.range import Limits, ends_of_ranges
-from thermodata.calibration.quality.still import Reading, read_elsewhere
+from thermodata.calibration.quality.ends.range import Limits, ends_of_ranges
+from thermodata.calibration.quality.ends.still import Reading, read_elsewhere
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.units.quantity import PROBED

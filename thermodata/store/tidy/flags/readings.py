@@ -8,9 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from thermodata.calibration.quality.range import LONG_TIMES, plateau_at_extreme
-from thermodata.calibration.quality.stays import stays_at_extreme
-from thermodata.calibration.quality.still import Reading, Shown
+from thermodata.calibration.quality.ends.range import LONG_TIMES, plateau_at_extreme
+from thermodata.calibration.quality.ends.stays import stays_at_extreme
+from thermodata.calibration.quality.ends.still import Reading, Shown
 from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag

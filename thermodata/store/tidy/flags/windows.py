@@ -14,9 +14,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.calibration.quality.column import ColumnInput
+from thermodata.calibration.quality.ends.range import Limits
 from thermodata.calibration.quality.event import MOST_EVENTS, QualityEvent
 from thermodata.calibration.quality.flags import flag_stream
-from thermodata.calibration.quality.range import Limits
 from thermodata.calibration.quality.value import RunStats
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from thermodata.calibration.expression.evaluation import rate_of
-from thermodata.calibration.quality.limit import codes_of
+from thermodata.calibration.quality.ends.limit import codes_of
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Float1D, Int1D

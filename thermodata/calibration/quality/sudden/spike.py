@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality.edges import across_steps
+from thermodata.calibration.quality.sudden.edges import across_steps
 from thermodata.calibration.quality.value import RunStats, true_runs
 from thermodata.calibration.tread import tread_of
 from thermodata.plugin import Bool1D, Float1D, Int1D

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality.stays import BAND
-from thermodata.calibration.quality.still import Reading, Shown
+from thermodata.calibration.quality.ends.stays import BAND
+from thermodata.calibration.quality.ends.still import Reading, Shown
 from thermodata.plugin import Float1D
 
 _LEAST_AT = 10  # readings of a test at its extreme
