@@ -1,5 +1,5 @@
-"""What is wrong with a column's values: held and stuck readings. (Sudden offsets: `quality.step`;
-spikes: `quality.spike`.)
+"""What is wrong with a column's values: held and stuck readings. (Sudden offsets: `quality.sudden.step`;
+spikes: `quality.sudden.spike`.)
 
 All of it leans on one look at the differences of neighbours (RunStats): how fine the readings are, how noisy,
 and how often neighbours are equal by chance.
