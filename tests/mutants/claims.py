@@ -454,11 +454,13 @@ MUTANTS = [
     diagnosis("judge.py", "key=lambda s: -probability(s)):", "key=probability):", "the least probable is asked"),
     diagnosis("judge.py", " and refines(one) is None:", ":", "another mode is asked of the locked tests"),
     diagnosis("judge.py", ' and one.kin != "same" and', " and", "a mode of one effect opens the lock"),
-    diagnosis("judge.py", "another = not j.like_a_mode and", "another =", "what is told from no mode opens the lock"),
-    diagnosis("judge.py", "not nameless or is_surely_missing(j.scored)", "not nameless", "a sure cause is a mode"),
+    diagnosis(
+        "judge.py", "another = not judged.like_a_mode and", "another =", "what is told from no mode opens the lock"
+    ),
+    diagnosis("judge.py", "not nameless or is_surely_missing(judged.scored)", "not nameless", "a sure cause is a mode"),
     diagnosis("judge.py", "or not nameless or", "or", "a name that is told from no mode is one"),
     diagnosis("judge.py", " or one.of_motion)", ")", "a cut is no cause beside the warmth of its part"),
-    diagnosis("judge.py", "and another and blunt(j.scored) is None", "and another", "all modes open the lock"),
+    diagnosis("judge.py", "and another and blunt(judged.scored) is None", "and another", "all modes open the lock"),
     diagnosis("judge.py", "enough, likely=_likely(maybe, ()))", "enough)", "a cause passes as a mode"),
     diagnosis("opened.py", "j.refines is not None and (", "False and (", "a mode is claimed as a cause"),
     diagnosis("opened.py", "and asked[worst].refines is None", "", "a twin of a mode is claimed"),
@@ -471,7 +473,7 @@ MUTANTS = [
     diagnosis("as_modelled.py", "FALLS = 0.3", "FALLS = 0.99", "nothing is offered"),
     diagnosis("as_modelled.py", "ALONE = 0.9", "ALONE = 1.1", "a tool of one test is foretold"),
     diagnosis("as_modelled.py", "NOISY * problem.noise", "0.0", "noise is refined"),
-    diagnosis("as_modelled.py", "s.spread <= SPREAD_LIMIT", "True", "what acts otherwise in each test is offered"),
+    diagnosis("as_modelled.py", "scored.spread <= SPREAD_LIMIT", "True", "what acts otherwise in each test is offered"),
     diagnosis("as_modelled.py", "if is_its_name(best, s)", "if False", "a lag is offered for its name"),
     diagnosis("as_modelled.py", "> measure.floor else", "> 0 else", "an error that is left alone is refined"),
     diagnosis("of_library.py", "is_at_table(own) and", "False and", "a table that nothing turns rubs"),
@@ -481,7 +483,10 @@ MUTANTS = [
         "warm_at_rest.py", "return not turning and bool(resting)", "return False", "a table that never turns rubs"
     ),
     diagnosis(
-        "row.py", "probability(s) if told.stated else None", "probability(s)", "a share that nobody measured is told"
+        "row.py",
+        "probability(scored) if told.stated else None",
+        "probability(scored)",
+        "a share that nobody measured is told",
     ),
     diagnosis(
         "listed.py",
@@ -489,10 +494,12 @@ MUTANTS = [
         "explained(item[0])",
         "the list contradicts the errors that stand in it",
     ),
-    diagnosis("stated.py", "if s.candidate.within:", "if False:", "a change of an effect is called a cause"),
+    diagnosis("stated.py", "if scored.candidate.within:", "if False:", "a change of an effect is called a cause"),
     diagnosis("stated.py", 'kin not in ("same", "heat")', 'kin != ""', "a mode of the model is called the likeliest"),
-    diagnosis("stated.py", "NAMED_SHARE * s.evidence", "0.0", "a name stands for a lag that is far more evident"),
-    diagnosis("stated.py", "if s.candidate.family not in UNNAMED:", "if True:", "a lag heads the list before its name"),
+    diagnosis("stated.py", "NAMED_SHARE * scored.evidence", "0.0", "a name stands for a lag that is far more evident"),
+    diagnosis(
+        "stated.py", "if scored.candidate.family not in UNNAMED:", "if True:", "a lag heads the list before its name"
+    ),
     diagnosis(
         "listed.py",
         "told = [s for s in told if blunt(s)",
@@ -507,13 +514,13 @@ MUTANTS = [
     ),
     diagnosis(
         "errors_told.py",
-        "all(j.scored.columns is s.columns for j in judged)",
-        "any(j.scored.columns is s.columns for j in judged)",
+        "all(j.scored.columns is scored.columns for j in judged)",
+        "any(j.scored.columns is scored.columns for j in judged)",
         "what stands beside a claim is forgotten",
     ),
     diagnosis(
         "errors_told.py",
-        "all(j.scored.columns is s.columns for j in judged)",
+        "all(j.scored.columns is scored.columns for j in judged)",
         "len(judged) == 1",
         "what was dropped falls from the wrong error",
     ),
@@ -858,7 +865,7 @@ MUTANTS = [
     diagnosis("changes.py", "max(SUDDEN * usual, LEAST_K)", "np.inf", "a gate on air that a day warms is a slip"),
     diagnosis("changes.py", "SUDDEN, LEAST_K = 4.0, 0.5", "SUDDEN, LEAST_K = 4.0, 0.4", "air of 0.45 K excuses a slip"),
     diagnosis(
-        "stated.py", "or not chosen or bool(s.others)", "or True", "what nobody asked beside the chosen is likely"
+        "stated.py", "or not chosen or bool(scored.others)", "or True", "what nobody asked beside the chosen is likely"
     ),
     diagnosis("stated.py", "and (m is not None or reads_as(s, modes) is None)", "", "a lag of a refinement is a cause"),
     diagnosis("heat_balance.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),

@@ -101,13 +101,16 @@ def _left(base: Known, foretold: Bool1D) -> float:
     return float(np.sqrt(np.mean(squares)))
 
 
-def _asked(s: Scored, foretold: Bool1D) -> Scored:
-    if not len(s.rows):
-        return replace(s, as_modelled=True)
-    before, after = np.where(foretold, s.sse_before, s.own_before), np.where(foretold, s.sse_after, s.own_after)
-    return replace(s, as_modelled=True, sse_before=before, sse_after=after)
+def _asked(scored: Scored, foretold: Bool1D) -> Scored:
+    if not len(scored.rows):
+        return replace(scored, as_modelled=True)
+    before, after = (
+        np.where(foretold, scored.sse_before, scored.own_before),
+        np.where(foretold, scored.sse_after, scored.own_after),
+    )
+    return replace(scored, as_modelled=True, sse_before=before, sse_after=after)
 
 
-def _is_sound(s: Scored) -> bool:
+def _is_sound(scored: Scored) -> bool:
     """Whether it acts alike in all tests, and makes most of them more probable."""
-    return s.candidate.unforetold is None and s.better >= BETTER_LIMIT and s.spread <= SPREAD_LIMIT
+    return scored.candidate.unforetold is None and scored.better >= BETTER_LIMIT and scored.spread <= SPREAD_LIMIT

@@ -162,25 +162,25 @@ def parts_offered(found: Judgement, conclude: Callable[[tuple[Judged, ...]], Jud
     return conclude(offered)
 
 
-def _or_a_mode(j: Judged, refines: Callable[[Scored], str | None]) -> Judged:
+def _or_a_mode(judged: Judged, refines: Callable[[Scored], str | None]) -> Judged:
     """A lag or a difference names no physics: where the tests can't tell it from another mode of what the model has, it
     is that, unless it is surely missing."""
-    nameless = j.scored.candidate.family in (GENERIC, CONTROL)
-    if j.refines is not None or not nameless or is_surely_missing(j.scored):
-        return j
-    for twin in equivalents(j.scored, j.beside):
+    nameless = judged.scored.candidate.family in (GENERIC, CONTROL)
+    if judged.refines is not None or not nameless or is_surely_missing(judged.scored):
+        return judged
+    for twin in equivalents(judged.scored, judged.beside):
         if twin.candidate.kin == "same" and twin.candidate.within is None and (said := refines(twin)) is not None:
             told = f"{said}; nor do they tell it from {twin.candidate.id}, which is one"
-            return replace(j, refines=told, like_a_mode=True)
-    return j
+            return replace(judged, refines=told, like_a_mode=True)
+    return judged
 
 
-def _may_be_its_own(j: Judged) -> bool:
+def _may_be_its_own(judged: Judged) -> bool:
     """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
     another mode of the same effect, a change of it, or the temperature of a body whose heat the model has, is none."""
-    one = j.scored.candidate
-    another = not j.like_a_mode and one.kin != "same" and (one.kin != "heat" or one.of_motion)
-    return j.refines is not None and one.within is None and another and blunt(j.scored) is None
+    one = judged.scored.candidate
+    another = not judged.like_a_mode and one.kin != "same" and (one.kin != "heat" or one.of_motion)
+    return judged.refines is not None and one.within is None and another and blunt(judged.scored) is None
 
 
 def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:
@@ -229,9 +229,9 @@ def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
     causes = [j.scored for j in members if j.refines is None and not j.scored.candidate.passive]
     sharpest = max(map(sharpness, causes), default=0.0)
 
-    def told(j: Judged) -> Judged:
-        beaten = j.refines is None and sharpness(j.scored) < sharpest
-        return replace(j, scored=replace(j.scored, beaten=True)) if beaten else j
+    def told(judged: Judged) -> Judged:
+        beaten = judged.refines is None and sharpness(judged.scored) < sharpest
+        return replace(judged, scored=replace(judged.scored, beaten=True)) if beaten else judged
 
     return tuple(told(j) for j in members)
 
@@ -240,11 +240,11 @@ def causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
     """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes; nor the
     same twice, where two members gave way to it."""
 
-    def again(j: Judged, other: Judged) -> bool:
-        mine, theirs = j.scored.candidate, other.scored.candidate
+    def again(judged: Judged, other: Judged) -> bool:
+        mine, theirs = judged.scored.candidate, other.scored.candidate
         named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
         shared = not set(mine.channels).isdisjoint(theirs.channels)
-        return named and shared and sharpness(j.scored) < sharpness(other.scored)
+        return named and shared and sharpness(judged.scored) < sharpness(other.scored)
 
     sharpest_first = sorted(claims, key=lambda j: -sharpness(j.scored))
     once = {j.scored.candidate.id: j for j in reversed(sharpest_first)}
@@ -256,16 +256,16 @@ def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
     return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
 
 
-def _alike(a: Scored, b: Scored) -> bool:
+def _alike(one: Scored, other: Scored) -> bool:
     """Whether they act alike, or tests would have to be drawn again to tell which predicts left-out ones better."""
-    cosine = abs(float(a.shape @ b.shape))
+    cosine = abs(float(one.shape @ other.shape))
     if cosine <= ALIKE_AT_ALL:
         return False
-    difference = a.gained - b.gained
+    difference = one.gained - other.gained
     sure = abs(difference.sum()) > SURE * np.sqrt(len(difference)) * difference.std(ddof=1)
     if cosine > ALIKE:
-        return bool(_error(b) <= (APART if sure else FAR) * _error(a))
-    return bool(not sure and _error(b) <= NEARLY * _error(a))
+        return bool(_error(other) <= (APART if sure else FAR) * _error(one))
+    return bool(not sure and _error(other) <= NEARLY * _error(one))
 
 
 def _error(scored: Scored) -> float:

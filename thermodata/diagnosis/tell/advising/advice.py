@@ -62,16 +62,16 @@ def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequen
     return next_test.to_find(len(took_part), investigation.spots, data.channels, first, sources)
 
 
-def _rests(j: Judged) -> bool:
+def _rests(judged: Judged) -> bool:
     """Whether the lock was opened for it, as it is likely, and it acts in none of the locked tests."""
-    looked = j.scored.looked
-    return j.refines is None and looked is not None and looked.foretold.tests == frozenset()
+    looked = judged.scored.looked
+    return judged.refines is None and looked is not None and looked.foretold.tests == frozenset()
 
 
-def _only_test(s: Scored, investigation: Investigation) -> str | None:
+def _only_test(scored: Scored, investigation: Investigation) -> str | None:
     """The name of the test that a candidate acts in, where that is one and no claim for it: another such test would
     tell. None where chance does as well."""
-    broken = {r.name for r in rules(s, investigation.measure, investigation.problem.unit) if not r.holds}
-    if not len(s.rows) or "others" not in broken or "chance" in broken:
+    broken = {r.name for r in rules(scored, investigation.measure, investigation.problem.unit) if not r.holds}
+    if not len(scored.rows) or "others" not in broken or "chance" in broken:
         return None
-    return str(investigation.problem.blocks[int(np.argmax(s.size))].test.test)
+    return str(investigation.problem.blocks[int(np.argmax(scored.size))].test.test)

@@ -25,35 +25,36 @@ _SHOWN = 3  # tests
 _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 
 
-def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
+def in_spite_of(scored: Scored, measure: Measure, unit: str) -> str:
     """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
-    lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
-    words = {"fall": f"that the error {_falls(s)}", **_OUTWEIGHED}
+    lifted = [r.name for r in rules(scored, measure, unit) if r.holds and not r.asked]
+    words = {"fall": f"that the error {_falls(scored)}", **_OUTWEIGHED}
     said = " and ".join(words[name] for name in lifted if name in words)
-    evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
+    evident = f"its evidence, {sharpness(scored):.2f} a sample, outweighs"
     return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
 
 
-def _falls(s: Scored) -> str:
+def _falls(scored: Scored) -> str:
     """As its figures say: 'does not fall', 'hardly falls', 'falls by 10 % only'."""
-    said = way(s.error_before, s.error_after)
-    return f"{said} by {in_percent(s.drop)} only" if said == "falls" else said
+    said = way(scored.error_before, scored.error_after)
+    return f"{said} by {in_percent(scored.drop)} only" if said == "falls" else said
 
 
-def placeless_limit(s: Scored) -> str:
+def placeless_limit(scored: Scored) -> str:
     """Of a claim that is less probable than one of a declared place must be: by which limit it stands; else ''."""
-    if probability(s) >= CLAIMED or not s.candidate.placeless:
+    if probability(scored) >= CLAIMED or not scored.candidate.placeless:
         return ""
     return (
         f"; no temperature has a declared place, so it names a channel and no part of the machine, and a claim asks "
-        f"{in_percent(limit_of(s))} in place of {in_percent(CLAIMED)}: declare 'at' of the channels to ask for more"
+        f"{in_percent(limit_of(scored))} in place of {in_percent(CLAIMED)}: declare 'at' of the channels to ask for "
+        "more"
     )
 
 
-def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
+def where_nothing_is_cut(scored: Scored, tests: Sequence[TestData]) -> str:
     """Of a cause by its heat of cutting: tests in which it acts, though by their kind nothing is cut in them; else
     ''."""
-    names = _without_a_cut(s, tests)
+    names = _without_a_cut(scored, tests)
     if not names:
         return ""
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
@@ -63,37 +64,37 @@ def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
     )
 
 
-def heats_its_motor(s: Scored, tests: Sequence[TestData]) -> bool:
+def heats_its_motor(scored: Scored, tests: Sequence[TestData]) -> bool:
     """Whether a cause by its heat of cutting acts where nothing is cut, and in no test of cutting: then the same heat
     in the spindle's motor comes first, whatever reads that."""
-    if not _without_a_cut(s, tests):
+    if not _without_a_cut(scored, tests):
         return False
-    return not any(acts and test.kind == _CUTTING for test, acts in zip(tests, s.acts, strict=True))
+    return not any(acts and test.kind == _CUTTING for test, acts in zip(tests, scored.acts, strict=True))
 
 
-def _without_a_cut(s: Scored, tests: Sequence[TestData]) -> list[str]:
+def _without_a_cut(scored: Scored, tests: Sequence[TestData]) -> list[str]:
     """The tests in which it acts though by their kind nothing is cut: 'speed (spectrum)'; none of another cause."""
-    if s.candidate.family != _CUTTING or not len(s.rows):  # what was not scored acts nowhere
+    if scored.candidate.family != _CUTTING or not len(scored.rows):  # what was not scored acts nowhere
         return []
-    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
+    acting = (test for test, acts in zip(tests, scored.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
     return list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
 
 
-def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
+def also_of_motor(scored: Scored, claims: Sequence[Scored]) -> str:
     """What drives a motor heats it before it cuts: said of a power that is not surely a cause of its own, beside a
     sharper claim of the motor's temperature; else ''."""
-    if probability(s) >= SURE or not any(n.quantity in _DRIVES_A_MOTOR for n in s.candidate.effect.needs):
+    if probability(scored) >= SURE or not any(n.quantity in _DRIVES_A_MOTOR for n in scored.candidate.effect.needs):
         return ""
-    motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(s)]
+    motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(scored)]
     if not motors:
         return ""
-    heats = "heats" if len(s.candidate.channels) == 1 else "heat"
+    heats = "heats" if len(scored.candidate.channels) == 1 else "heat"
     return (
-        f"; {listed(s.candidate.channels)} {heats} the motor too, which is claimed as {motors[0].candidate.id}: it "
-        "may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
+        f"; {listed(scored.candidate.channels)} {heats} the motor too, which is claimed as {motors[0].candidate.id}: "
+        "it may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
         "first, and ask again"
     )
 
 
-def _reads_motor(s: Scored) -> bool:
-    return any(p.endswith("spindle.motor") for n in s.candidate.effect.needs for p in n.places)
+def _reads_motor(scored: Scored) -> bool:
+    return any(p.endswith("spindle.motor") for n in scored.candidate.effect.needs for p in n.places)

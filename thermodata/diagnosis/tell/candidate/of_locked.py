@@ -17,7 +17,7 @@ _SAME = 0.02  # of an error: two that differ by less are not told apart
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
-def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, together: bool) -> str:
+def said_by_locked(scored: Scored, held: Confirmation, unit: str, tests: str, *, together: bool) -> str:
     """The errors as scored; where they do not fall, beside them those that the claim holds by. tests: what is left out
     of the open ones, in a word."""
     if held.before is None or held.after is None:
@@ -30,7 +30,7 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
             "; it acts little in the locked tests, and was not held against them, but for that they must not get "
             f"twice as bad; with {all_of_it} their {error}"
         )
-    way_of = _in_one_way(s, s.looked, tests) if s.looked is not None else ""
+    way_of = _in_one_way(scored, scored.looked, tests) if scored.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
         acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
@@ -43,10 +43,10 @@ def said_by_locked(s: Scored, held: Confirmation, unit: str, tests: str, *, toge
     return figures + way_of + _as_fitted(held, unit)
 
 
-def stands_for(s: Scored, held: Confirmation) -> str | None:
+def stands_for(scored: Scored, held: Confirmation) -> str | None:
     """Why a claim stands though the locked tests in which it acts get no better with all that is claimed; None where
     they do, or none of them was asked."""
-    shape, looked = held.on(held.asked), s.looked
+    shape, looked = held.on(held.asked), scored.looked
     if shape is None or looked is None or shape.after < shape.before:
         return None
     falls = [f for f in looked.saying if f.falls]
@@ -70,7 +70,7 @@ def _as_fitted(held: Confirmation, unit: str) -> str:
     )
 
 
-def _in_one_way(s: Scored, looked: Looked, tests: str) -> str:
+def _in_one_way(scored: Scored, looked: Looked, tests: str) -> str:
     """How much of it the locked tests bear out, where that is not all."""
     added = looked.added
     if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
@@ -80,15 +80,15 @@ def _in_one_way(s: Scored, looked: Looked, tests: str) -> str:
         return f", which bear it out as it stands, and not where {_OTHERWISE}"
     if looked.bears_out:
         return ""
-    return f"; {on_locked(looked)}, which is less than a cause mostly takes away, but {_outweighs(s, tests)}"
+    return f"; {on_locked(looked)}, which is less than a cause mostly takes away, but {_outweighs(scored, tests)}"
 
 
-def _outweighs(s: Scored, tests: str) -> str:
+def _outweighs(scored: Scored, tests: str) -> str:
     """What of the open tests outweighs locked ones that speak against a claim."""
-    count = int(s.acts.sum())
-    gain = f", with a gain that differs by {in_percent(s.spread)}" if count >= LEAST_TESTS else ""
+    count = int(scored.acts.sum())
+    gain = f", with a gain that differs by {in_percent(scored.spread)}" if count >= LEAST_TESTS else ""
+    falls = f"{way(scored.error_before, scored.error_after)} by {in_percent(scored.drop)}"
     return (
-        f"the open ones outweigh that: there the error {way(s.error_before, s.error_after)} by {in_percent(s.drop)} in "
-        f"the {count} {tests if count > 1 else tests[:-1]} in which it acts{gain}, so that, all weighed, its "
-        f"probability is {in_percent(probability(s))}"
+        f"the open ones outweigh that: there the error {falls} in the {count} {tests if count > 1 else tests[:-1]} "
+        f"in which it acts{gain}, so that, all weighed, its probability is {in_percent(probability(scored))}"
     )

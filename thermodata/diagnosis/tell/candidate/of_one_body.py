@@ -8,10 +8,10 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import listed
 
 
-def in_place_of_heats(s: Scored, judgement: Judgement, unit: str) -> str:
+def in_place_of_heats(scored: Scored, judgement: Judgement, unit: str) -> str:
     """'; taken by the locked tests in place of ...' of the body; '' of all else."""
     one = judgement.one_body
-    if one is None or one.body != s.candidate.id:
+    if one is None or one.body != scored.candidate.id:
         return ""
     heats = listed([j.scored.candidate.id for j in one.heats])
     return (
@@ -21,9 +21,9 @@ def in_place_of_heats(s: Scored, judgement: Judgement, unit: str) -> str:
     )
 
 
-def only_warms(s: Scored, one: OneBody, unit: str) -> str:
+def only_warms(scored: Scored, one: OneBody, unit: str) -> str:
     """Why what was claimed with others is no cause of its own."""
-    others = listed([j.scored.candidate.id for j in one.heats if j.scored.columns is not s.columns])
+    others = listed([j.scored.candidate.id for j in one.heats if j.scored.columns is not scored.columns])
     return (
         f"with {others} it does in the open tests what {one.body} does alone, which leaves {short(one.left)} {unit} of "
         f"the locked ones in place of {short(one.left_by_heats)} {unit}, with a free offset a test: it warms that body"

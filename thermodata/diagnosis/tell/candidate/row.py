@@ -26,24 +26,32 @@ from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: bool) -> Candidate:
     """first: whether it is the first of the list that refines nothing."""
-    s, one, errors, held = told.listed, told.one, told.errors, told.held
+    scored, one, errors, held = told.listed, told.one, told.errors, told.held
     problem, measure, judgement = outcome.investigation.problem, outcome.measure, outcome.judgement
     claimed = among(told.member, judgement.claims)
     heads = first or claimed or among(told.member, judgement.refused)
     refining = among(told.member, judgement.refinements)
-    shape = held.on(held.asked) if held else as_added(s) if refining else s.looked.least if s.looked else None
+    shape = (
+        held.on(held.asked)
+        if held
+        else as_added(scored)
+        if refining
+        else scored.looked.least
+        if scored.looked
+        else None
+    )
     return Candidate(
         rank=rank,
-        id=s.candidate.id,
-        effect=s.candidate.effect.name,
-        family=s.candidate.family,
-        drivers=list(s.candidate.channels),
-        gain_by=s.candidate.gain_by,
-        phases=list(s.candidate.phases),
+        id=scored.candidate.id,
+        effect=scored.candidate.effect.name,
+        family=scored.candidate.family,
+        drivers=list(scored.candidate.channels),
+        gain_by=scored.candidate.gain_by,
+        phases=list(scored.candidate.phases),
         claimed=claimed,
         refinement=refining,
         # measured for what is sound; nothing is known of the share of the others
-        probability=probability(s) if told.stated else None,
+        probability=probability(scored) if told.stated else None,
         # chance was asked beside effects that may act otherwise
         p_value=None if one.as_modelled else p_value(one.evidence, measure.chance),
         rmse_um_before=rmse(errors.sse_before, errors),
@@ -57,14 +65,14 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         locked_rmse_um_fitted=held.stands if held else None,
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
-        locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
-        stands_for=stands_for(s, held) if held else None,
-        as_modelled=s.as_modelled,
-        parameters=held.parameters.get(s.candidate.id, {}) if held else {},
+        locked_tests_asked=_count(held.asked if held else scored.looked.foretold.tests if scored.looked else None),
+        stands_for=stands_for(scored, held) if held else None,
+        as_modelled=scored.as_modelled,
+        parameters=held.parameters.get(scored.candidate.id, {}) if held else {},
         beside=[] if told.of_model else list(told.others),
         equivalent=[t.id for t in told.twins],
         unread=_unread(told, outcome, data) if heads or told.stated else [],
-        also_on=dict(s.also_on),
+        also_on=dict(scored.also_on),
         why=why(told, outcome),
         evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,
         rungs=ladder.rungs(one, measure, problem.unit, sure=told.sure),
@@ -88,23 +96,23 @@ def alike_both_ways(found: Sequence[Candidate]) -> list[Candidate]:
 def _unread(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
     """Places of other parts that it may be; not those that a temperature reads which the answer names beside it. The
     motor of a spindle that cuts nothing comes first, unless another claim reads it."""
-    s, claims = told.listed, [j.scored.candidate for j in outcome.judgement.claims]
+    scored, claims = told.listed, [j.scored.candidate for j in outcome.judgement.claims]
 
     def read_by(some: Sequence[CandidateEffect]) -> dict[str, ChannelInfo]:
-        names = {n for one in some for n in one.channels if n not in s.candidate.channels}
+        names = {n for one in some for n in one.channels if n not in scored.candidate.channels}
         return {n: channel for n, channel in data.channels.items() if n in names}
 
-    nothing_is_cut = heats_its_motor(s, [b.test for b in outcome.investigation.problem.blocks])
-    motors = motors_of(s.candidate.channels, data.channels) if nothing_is_cut else ()
+    nothing_is_cut = heats_its_motor(scored, [b.test for b in outcome.investigation.problem.blocks])
+    motors = motors_of(scored.candidate.channels, data.channels) if nothing_is_cut else ()
     found = [place for place in motors if not reads(read_by(claims), place)]
     beside = read_by([*told.twins, *claims])
-    return list(dict.fromkeys([*found, *(place for place in elsewhere(s) if not reads(beside, place))]))
+    return list(dict.fromkeys([*found, *(place for place in elsewhere(scored) if not reads(beside, place))]))
 
 
 def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
     return None if tests is None else len(tests)
 
 
-def _fit(sse: np.ndarray, s: Scored, spread: float) -> float | None:
-    error = rmse(sse, s)
+def _fit(sse: np.ndarray, scored: Scored, spread: float) -> float | None:
+    error = rmse(sse, scored)
     return None if error is None or spread <= 0 else (1 - error / spread) * 100

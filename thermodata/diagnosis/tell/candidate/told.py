@@ -74,6 +74,6 @@ def told_of(row: Row, with_probability: Sequence[Scored], outcome: Outcome) -> T
     )
 
 
-def as_ranked(s: Scored, ranked: Sequence[Scored]) -> Scored:
+def as_ranked(scored: Scored, ranked: Sequence[Scored]) -> Scored:
     """What was dropped was scored beside others, and is alike only as the same ranking has it."""
-    return next((r for r in ranked if r.columns is s.columns and len(r.shape)), s)
+    return next((r for r in ranked if r.columns is scored.columns and len(r.shape)), scored)

@@ -59,51 +59,51 @@ def _figures(told: Told, outcome: Outcome) -> str:
 
 def _claimed(told: Told, judged: Judged, outcome: Outcome) -> str:
     """What speaks for a claim, and what is to be known of it."""
-    s, held, judgement = told.one, told.held, outcome.judgement
+    scored, held, judgement = told.one, told.held, outcome.judgement
     measure, unit = outcome.measure, outcome.unit
-    broken = failed_rules(s, measure, unit)
+    broken = failed_rules(scored, measure, unit)
     broken += [judged.refines.partition(":")[0]] if judged.refines else []
-    said = [in_spite_of(s, measure, unit), f"; {chance_in_words(s.evidence, measure.chance)}"]
-    if s.also_on:
-        said.append(f"; {also_missing(s)}")
+    said = [in_spite_of(scored, measure, unit), f"; {chance_in_words(scored.evidence, measure.chance)}"]
+    if scored.also_on:
+        said.append(f"; {also_missing(scored)}")
     if broken:
         said.append(f"; on the open tests {broken[0]}, which the locked ones outweigh")
     if held is not None:
-        said.append(said_by_locked(s, held, unit, measure.tests, together=len(judgement.claims) > 1))
+        said.append(said_by_locked(scored, held, unit, measure.tests, together=len(judgement.claims) > 1))
     if judged.in_place_of:
         said.append(
             f"; taken by the locked tests in place of {judged.in_place_of}, which the open ones can't tell it from"
         )
-    said.append(in_place_of_heats(s, judgement, unit))
+    said.append(in_place_of_heats(scored, judgement, unit))
     if held is not None:
-        said += [f"; {gain}" for gain in held.implausible.get(s.candidate.id, ())]
-    said.append(where_nothing_is_cut(s, [b.test for b in outcome.investigation.problem.blocks]))
-    said.append(also_of_motor(s, [j.scored for j in judgement.claims]))
-    return "".join([*said, placeless_limit(s)])
+        said += [f"; {gain}" for gain in held.implausible.get(scored.candidate.id, ())]
+    said.append(where_nothing_is_cut(scored, [b.test for b in outcome.investigation.problem.blocks]))
+    said.append(also_of_motor(scored, [j.scored for j in judgement.claims]))
+    return "".join([*said, placeless_limit(scored)])
 
 
 def _not_claimed(told: Told, outcome: Outcome) -> str:
     """Why the open tests claim it not."""
-    s, judged, judgement = told.one, told.judged, outcome.judgement
+    scored, judged, judgement = told.one, told.judged, outcome.judgement
     if judged is not None and judged.warms and judgement.one_body is not None:
-        return only_warms(s, judgement.one_body, outcome.unit)
-    failed = failed_rules(s, outcome.measure, outcome.unit)
+        return only_warms(scored, judgement.one_body, outcome.unit)
+    failed = failed_rules(scored, outcome.measure, outcome.unit)
     # a probability that is stated of no candidate is no reason either
     if not failed and told.by_name is not None:
         return f"{told.by_name.candidate.id} says the same of its channels by a name"
-    if not failed and judged is None and not is_a_cause(s, judged):
-        return would_be_a_mode(s.candidate)
+    if not failed and judged is None and not is_a_cause(scored, judged):
+        return would_be_a_mode(scored.candidate)
     names = [j.scored.candidate.id for j in judgement.chosen]
-    beside = is_judged_beside(s, judged, chosen=bool(names))
-    sure = of_probability(s, told.sure)
+    beside = is_judged_beside(scored, judged, chosen=bool(names))
+    sure = of_probability(scored, told.sure)
     improbable = [sure.fails] if beside and not sure.holds else []
     if failed:
         said = "; and ".join([failed[0], *(why.partition(": ")[0] for why in improbable)])
-        return f"{said}; {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else said
+        return f"{said}; {on_locked(scored.looked)}" if scored.looked is not None and scored.looked.saying else said
     if improbable:
-        return improbable[0] + in_place_of_heats(s, judgement, outcome.unit)
+        return improbable[0] + in_place_of_heats(scored, judgement, outcome.unit)
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
-    if not beside and all(errors_of_all(s)[1] < errors_of_all(head)[1] for head in heads):
+    if not beside and all(errors_of_all(scored)[1] < errors_of_all(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
         rules = "the rules" if sure.holds else "all rules but that of the probability"
         return f"it keeps {rules} by itself, and {listed(names)} {were} chosen without it"
@@ -128,23 +128,24 @@ def would_be_a_mode(one: CandidateEffect) -> str:
 def _numbers(told: Told, outcome: Outcome, of_all: Scored | None = None) -> str:
     """Where it acts, how far the error falls there, and in how many tests it says so. of_all: what the errors over all
     tests are said of, where they are said."""
-    s, unit, tests = told.one, outcome.unit, outcome.tests
-    count = int(s.acts.sum())
+    scored, unit, tests = told.one, outcome.unit, outcome.tests
+    count = int(scored.acts.sum())
     beside = f", beside {listed(told.others)}," if told.others else ""
-    beside = ", beside the effects as the model has them, one lag each," if s.as_modelled else beside
+    beside = ", beside the effects as the model has them, one lag each," if scored.as_modelled else beside
     return (
-        f"{where_it_acts(count, len(s.rows), tests)}{beside} the error "
-        f"{way(s.error_before, s.error_after)} "
+        f"{where_it_acts(count, len(scored.rows), tests)}{beside} the error "
+        f"{way(scored.error_before, scored.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
-        f"({from_to(s.error_before, s.error_after, unit)}), with its size from the other {tests} and the known effects "
-        f"fitted to all{_of_all(s, of_all, tests, unit)}, {_more_probable(s, count)}; {gain_between(s, tests)}"
+        f"({from_to(scored.error_before, scored.error_after, unit)}), with its size from the other {tests} and the "
+        f"known effects fitted to all{_of_all(scored, of_all, tests, unit)}, {_more_probable(scored, count)}; "
+        f"{gain_between(scored, tests)}"
     )
 
 
-def _more_probable(s: Scored, count: int) -> str:
+def _more_probable(scored: Scored, count: int) -> str:
     """In how many of the tests in which it acts; with how that can be where the error does not fall."""
-    better = f"it makes {round(s.better * count)} of {count} more probable"
-    if s.error_after < s.error_before or not s.better:
+    better = f"it makes {round(scored.better * count)} of {count} more probable"
+    if scored.error_after < scored.error_before or not scored.better:
         return f"and {better}"
     return (
         f"though {better}: that is of their samples with the known effects free to act otherwise in each, the error of "
@@ -152,11 +153,11 @@ def _more_probable(s: Scored, count: int) -> str:
     )
 
 
-def gain_between(s: Scored, tests: str) -> str:
+def gain_between(scored: Scored, tests: str) -> str:
     """'its gain differs between tests by 8 %': of one test nobody knows."""
-    if int(s.acts.sum()) < LEAST_TESTS:
+    if int(scored.acts.sum()) < LEAST_TESTS:
         return f"no other {tests[:-1]} tells its gain"
-    return f"its gain differs between {tests} by {in_percent(s.spread)}"
+    return f"its gain differs between {tests} by {in_percent(scored.spread)}"
 
 
 def where_it_acts(count: int, of: int, tests: str) -> str:
@@ -164,20 +165,20 @@ def where_it_acts(count: int, of: int, tests: str) -> str:
     return f"where it acts{' most' if count < of else ''} ({count} of {of} {tests})"
 
 
-def _of_all(s: Scored, told: Scored | None, tests: str, unit: str) -> str:
+def _of_all(scored: Scored, told: Scored | None, tests: str, unit: str) -> str:
     """What the errors before and after are of, where these are others than those in which it acts; else ''."""
     if told is None or not len(told.rows):
         return ""
-    left, own = errors_of_all(told), (s.error_before, s.error_after)
+    left, own = errors_of_all(told), (scored.error_before, scored.error_after)
     if all(abs(a - b) <= ALIKE * b for a, b in zip(left, own, strict=True)):
         return ""
     return f" (over all {tests}, with these fitted to the other {tests} too, it goes {from_to(*left, unit)})"
 
 
-def _refused(s: Scored, judgement: Judgement) -> str:
+def _refused(scored: Scored, judgement: Judgement) -> str:
     """Why what keeps every rule on the open tests is no claim."""
     if not judgement.claims:
         return judgement.reason
     claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
-    said = f": {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else ""
+    said = f": {on_locked(scored.looked)}" if scored.looked is not None and scored.looked.saying else ""
     return f"it explains the open tests, but beside {claims} the locked ones do not bear it out{said}"

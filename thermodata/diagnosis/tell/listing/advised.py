@@ -9,21 +9,21 @@ from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.scored import Scored
 
 
-def lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
+def lets_an_error_fall(scored: Scored, investigation: Investigation) -> bool:
     """Whether left-out tests are foretold better with it, over all or where it acts, and locked ones that were opened
     for it no worse: nothing else is advised."""
-    added = as_added(s)
+    added = as_added(scored)
     if added is not None and added.after >= added.before:
         return False
-    return s.drop > 0 or fall(beside_the_model(s, investigation)[0]) > 0
+    return scored.drop > 0 or fall(beside_the_model(scored, investigation)[0]) > 0
 
 
-def against_adding(s: Scored, investigation: Investigation) -> str:
+def against_adding(scored: Scored, investigation: Investigation) -> str:
     """Why a refinement is not advised, with what the locked tests say, where they were opened for it; '' where it
     is."""
-    if lets_an_error_fall(s, investigation):
+    if lets_an_error_fall(scored, investigation):
         return ""
-    added, unit = as_added(s), investigation.problem.unit
+    added, unit = as_added(scored), investigation.problem.unit
     figures = "" if added is None else f" ({from_to(added.before, added.after, unit)} about each one's mean)"
     if added is not None and added.after >= added.before:
         return f"locked tests are foretold no better with it{figures}"
@@ -31,7 +31,7 @@ def against_adding(s: Scored, investigation: Investigation) -> str:
     return f"left-out tests are foretold no better with it{though}"
 
 
-def as_added(s: Scored) -> Foretold | None:
+def as_added(scored: Scored) -> Foretold | None:
     """What locked tests say of it, added to the model as it stands; None where they were not opened, or say nothing."""
-    added = s.looked.added if s.looked is not None else None
-    return added if added is not None and s.looked is not None and added in s.looked.saying else None
+    added = scored.looked.added if scored.looked is not None else None
+    return added if added is not None and scored.looked is not None and added in scored.looked.saying else None

@@ -12,48 +12,52 @@ from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 
 
-def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
+def beside_the_model(scored: Scored, investigation: Investigation) -> tuple[Scored, bool]:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
     whether it is the former. Of some candidates the answer has errors that are told in their place."""
-    if s.as_modelled:
-        return s, True
-    if (told := investigation.told.get(id(s.columns))) is not None:
+    if scored.as_modelled:
+        return scored, True
+    if (told := investigation.told.get(id(scored.columns))) is not None:
         return told
     first = investigation.selection.first.ranked if investigation.selection is not None else ()
     ranked = [f for f in first if len(f.rows)]
-    alone = next((f for f in ranked if f.columns is s.columns), None)
-    if alone is not None and not len(s.rows):
+    alone = next((f for f in ranked if f.columns is scored.columns), None)
+    if alone is not None and not len(scored.rows):
         return alone, True
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
     judged = investigation.on_open.judged
-    if ranked and (judged or not s.others) and all(j.scored.columns is s.columns for j in judged):
-        s = replace(s, sse_before=ranked[0].sse_before)
+    if ranked and (judged or not scored.others) and all(j.scored.columns is scored.columns for j in judged):
+        scored = replace(scored, sse_before=ranked[0].sse_before)
     if alone is None:
-        return s, False
-    return (alone, True) if fall(alone) >= fall(s) else (s, False)
+        return scored, False
+    return (alone, True) if fall(alone) >= fall(scored) else (scored, False)
 
 
-def as_told(s: Scored, member: Judged | None, told: Scored, investigation: Investigation, judgement: Judgement) -> Row:
+def as_told(
+    scored: Scored, member: Judged | None, told: Scored, investigation: Investigation, judgement: Judgement
+) -> Row:
     """What a row says of itself: its own candidate, or, where its errors are told of another that is one equation with
     it, that other as it stands in its own row, so that figures, rules and reason are of one thing. Where that row is
     judged beside the candidate itself, the other beside the model."""
-    if told.candidate is s.candidate:
-        return s, member
+    if told.candidate is scored.candidate:
+        return scored, member
     for j in (*judgement.judged, *judgement.heats):
         if j.scored.columns is told.columns:
             return j.scored, j
     dropped = () if investigation.selection is None else investigation.selection.dropped
-    own = (d for d in dropped if d.columns is told.columns and s.candidate.id not in d.others)
+    own = (d for d in dropped if d.columns is told.columns and scored.candidate.id not in d.others)
     return next(own, told), None
 
 
-def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:
+def judged_beside(
+    scored: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement
+) -> list[str]:
     """Ids of what is in the model too where a candidate is judged, as the answer names them."""
-    if s.as_modelled:
+    if scored.as_modelled:
         return []
     if member is None or member.warms:
-        return list(s.others)
+        return list(scored.others)
     # what is offered beside the model as it stands stands beside no other candidate
     among_them = [j for j in judgement.judged if j.alone is not member.alone and not j.scored.as_modelled]
     others = [j.scored.candidate.id for j in among_them]
@@ -61,16 +65,18 @@ def judged_beside(s: Scored, member: Judged | None, investigation: Investigation
     return [*others, *(c.candidate.id for c in context)]
 
 
-def errors_of_all(s: Scored) -> tuple[float, float]:
+def errors_of_all(scored: Scored) -> tuple[float, float]:
     """Errors of all tests that are left out whole, without and with it."""
-    return float(np.sqrt(np.mean(s.sse_before / s.rows))), float(np.sqrt(np.mean(s.sse_after / s.rows)))
+    return float(np.sqrt(np.mean(scored.sse_before / scored.rows))), float(
+        np.sqrt(np.mean(scored.sse_after / scored.rows))
+    )
 
 
-def rmse(sse: np.ndarray, s: Scored) -> float | None:
-    return float(np.sqrt(np.mean(sse / s.rows))) if len(s.rows) else None
+def rmse(sse: np.ndarray, scored: Scored) -> float | None:
+    return float(np.sqrt(np.mean(sse / scored.rows))) if len(scored.rows) else None
 
 
-def fall(s: Scored) -> float:
+def fall(scored: Scored) -> float:
     """Of the squared error on left-out tests, each test alike, as a share."""
-    before = float(np.mean(s.sse_before / s.rows))
-    return 1 - float(np.mean(s.sse_after / s.rows)) / before if before > 0 else 0.0
+    before = float(np.mean(scored.sse_before / scored.rows))
+    return 1 - float(np.mean(scored.sse_after / scored.rows)) / before if before > 0 else 0.0

@@ -32,10 +32,10 @@ def likeliest(rows: Sequence[Row], measure: Measure, unit: str, *, chosen: bool)
     return max([*most, *told], key=probability, default=next((s for s, _ in own), None))
 
 
-def is_judged_beside(s: Scored, member: Judged | None, *, chosen: bool) -> bool:
+def is_judged_beside(scored: Scored, member: Judged | None, *, chosen: bool) -> bool:
     """Whether it was weighed beside what was chosen, if anything was: what the others of the ranking are beside that
     nobody asked (docs/method.md#probability)."""
-    return member is not None or not chosen or bool(s.others)
+    return member is not None or not chosen or bool(scored.others)
 
 
 def causes(rows: Sequence[Row]) -> list[Row]:
@@ -44,24 +44,24 @@ def causes(rows: Sequence[Row]) -> list[Row]:
     return [(s, m) for s, m in rows if is_a_cause(s, m) and (m is not None or reads_as(s, modes) is None)]
 
 
-def is_a_cause(s: Scored, member: Judged | None) -> bool:
+def is_a_cause(scored: Scored, member: Judged | None) -> bool:
     """Whether it is none that refines the model, nor only warms a body that is one. Of what was not selected nobody
     asked that, so that a mode of what the model has, by its kin, is none."""
-    if s.candidate.within:
+    if scored.candidate.within:
         return False
-    return s.candidate.kin not in ("same", "heat") if member is None else not (member.refines or member.warms)
+    return scored.candidate.kin not in ("same", "heat") if member is None else not (member.refines or member.warms)
 
 
-def goes_by_name(s: Scored, sound: Sequence[Scored]) -> Scored | None:
+def goes_by_name(scored: Scored, sound: Sequence[Scored]) -> Scored | None:
     """The sound effect with a name that says of the same channels what a lag of them does, and is as evident."""
-    return reads_as(s, [t for t in sound if t.evidence >= NAMED_SHARE * s.evidence])
+    return reads_as(scored, [t for t in sound if t.evidence >= NAMED_SHARE * scored.evidence])
 
 
-def reads_as(s: Scored, among: Sequence[Scored]) -> Scored | None:
+def reads_as(scored: Scored, among: Sequence[Scored]) -> Scored | None:
     """The effect with a name of the same channels, where a candidate is a lag or a difference of them."""
-    if s.candidate.family not in UNNAMED:
+    if scored.candidate.family not in UNNAMED:
         return None
-    own = set(s.candidate.channels)
+    own = set(scored.candidate.channels)
     named = (t for t in among if t.candidate.family not in UNNAMED)
     return next((t for t in named if set(t.candidate.channels) == own), None)
 
