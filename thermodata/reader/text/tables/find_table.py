@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
@@ -34,7 +34,7 @@ from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.look_at_columns import look_at_columns
 from thermodata.reader.text.tables.row_series import with_series
-from thermodata.reader.text.tables.sampled_cells import still_going
+from thermodata.reader.text.tables.sampled import Sampled, still_going
 from thermodata.reader.text.tables.table import Table, TimedGroup, header_lines
 from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
@@ -79,14 +79,13 @@ def _kept(asked: _Asked) -> Table:
             hint="export fewer columns a file",
         )
     if not any(line.strip() for line in head):
-        raise FormatError(
-            "no whole line" if first.head else "an empty file",
-            where=path.name,
-            expected="a table",
-            got=repr(first.head[0][:60]) if first.head else "nothing",
-            hint="copy it anew from where it was recorded",
-        )
+        got = repr(first.head[0][:60]) if first.head else "nothing"
+        raise _no_table("no whole line" if first.head else "an empty file", path.name, got)
     return with_series(find_table(head, first, source, path.name, asked.stream, strict=True), source)
+
+
+def _no_table(what: str, where: str, got: str) -> FormatError:
+    return FormatError(what, where=where, expected="a table", got=got, hint="copy it anew from where it was recorded")
 
 
 def find_table(
@@ -98,38 +97,25 @@ def find_table(
 
     FormatError where there is none, or it can't be read; QuestionError where it leaves open how."""
     if not any(line.strip() for line in head):
-        raise FormatError(
-            "no whole line",
-            where=where,
-            expected="a table",
-            got="nothing",
-            hint="copy it anew from where it was recorded",
-        )
+        raise _no_table("no whole line", where, "nothing")
     if not named_values(head):
         refuse_foreign(head, where)
     said = source.table or {}
     whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
-    lines, rows = whole, whole.rows()
-    if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
-        lines, rows = whole.up_to(end), rows[:end]
-    layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
-    body = _body(lines, rows, layout)
-    if said.get("series") is None:  # else it is declared how its rows lie
-        refuse_long(layout.names, body, where)
-    groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
-    preamble = lines.head[: layout.first]
-    groups, zone, open_zone = zones_said(groups, layout.names, map(lines.cells, preamble), source.timezone)
-    texts = source.options.get("text") or ()
-    columns = look_at_columns(said, layout, groups, body, texts, whole.delimiter, where)
+    lines, table = _sampled(whole, said, where, stream, strict)
+    layout, preamble = table.layout, lines.head[: table.layout.first]
+    groups, zone, open_zone = zones_said(table.groups, layout.names, map(lines.cells, preamble), source.timezone)
+    table = replace(table, groups=groups)
+    columns = look_at_columns(table, source.options.get("text") or (), whole.delimiter)
     above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
-    begin, doubt = _begin(groups, above, body, declared_start(said), where)
+    begin, doubt = _begin(table, above)
     notes = [
         whole.sample.note,
         *layout.notes,
         *_of_names(layout, columns.kinds),
-        *_of_times(groups, body),
+        *_of_times(table),
         *columns.notes,
         doubt,
         open_zone,
@@ -157,6 +143,21 @@ def find_table(
         units_told=columns.units_told,
         stands=columns.stands,
     )
+
+
+def _sampled(
+    whole: HeadLines, said: Mapping[str, Any], where: str, stream: str, strict: bool
+) -> tuple[HeadLines, Sampled]:
+    """(the lines of the table, without another below it; what was sampled of it). said: what is declared of it."""
+    lines, rows = whole, whole.rows()
+    if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
+        lines, rows = whole.up_to(end), rows[:end]
+    layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    body = _body(lines, rows, layout)
+    if said.get("series") is None:  # else it is declared how its rows lie
+        refuse_long(layout.names, body, where)
+    groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
+    return lines, Sampled(said, layout, groups, body, where)
 
 
 def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[list[str]]:
@@ -194,15 +195,14 @@ def _timed(
     return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
 
 
-def _begin(
-    groups: Sequence[TimedGroup], above: Iterable[list[str]], body: Sequence[list[str]], said: str | None, where: str
-) -> tuple[Begin | None, str | None]:
-    """(when the rows began, as a line above them says; a note where one is not taken). said: what is declared of it."""
+def _begin(table: Sampled, above: Iterable[list[str]]) -> tuple[Begin | None, str | None]:
+    """(when the rows began, as a line above them says; a note where one is not taken)."""
+    groups, said = table.groups, declared_start(table.said)
     if any(g.absolute for g in groups):
         return None, unused_start(said)
     timed = groups[0]
-    first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
-    begin, doubt = find_begin(list(above), first_rows, said, where)
+    first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, table.body)
+    begin, doubt = find_begin(list(above), first_rows, said, table.where)
     if begin is None or len({g.of_day for g in groups}) == 1:
         return begin, doubt
     stands = f"'{begin.text[:60]}' stands above the rows, {NOT_TAKEN}"
@@ -221,8 +221,9 @@ def _of_names(layout: Layout, kinds: Sequence[str | None]) -> Iterator[str]:
         yield "names that repeat are numbered: #2, #3, ..."
 
 
-def _of_times(groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> Iterator[str | None]:
-    """Notes on how times are written. body: the sampled rows."""
+def _of_times(table: Sampled) -> Iterator[str | None]:
+    """Notes on how times are written."""
+    groups, body = table.groups, table.body
     if any(g.once for g in groups):
         yield NOTE
     forms = [form for g in groups for form in g.formats if form.role != PART.role]

@@ -5,20 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import paired_units, unit_column, unit_column_note
-from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.qualities import Qualities, find_qualities
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
-from thermodata.reader.text.tables.sampled_cells import sampled_cells
+from thermodata.reader.text.tables.sampled import Sampled
 from thermodata.reader.text.tables.standing_columns import standing_columns
-from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.tables.told_thousands import told_thousands
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 
@@ -38,28 +35,21 @@ class Columns:
     notes: tuple[str, ...]
 
 
-def look_at_columns(
-    said: Mapping[str, Any],
-    layout: Layout,
-    groups: Sequence[TimedGroup],
-    body: Sequence[list[str]],
-    texts: Collection[str],
-    delimiter: str,
-    where: str,
-) -> Columns:
-    """said: what is declared of the table; body: its sampled rows, of a cell for each column; texts: names of columns
-    that are text whatever their cells. FormatError: no values; QuestionError: cells that can be read in two ways."""
-    cells_of = sampled_cells(layout, groups, body)
+def look_at_columns(table: Sampled, texts: Collection[str], delimiter: str) -> Columns:
+    """texts: names of columns that are text whatever their cells. FormatError: no values; QuestionError: cells that can
+    be read in two ways."""
+    said, layout, groups, where = table.said, table.layout, table.groups, table.where
+    cells_of = table.cells()
     units = dict(zip(layout.names, layout.units, strict=True))
     own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
     measured = {name for name, unit in units.items() if unit}
     qualities = find_qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
     forced = {*texts, *qualities.of_words(cells_of)}
-    kinds = _kinds(layout, groups, cells_of, forced)
+    kinds = _kinds(table, cells_of, forced)
     times = {layout.names[i] for i in layout.time}
     values = {name: kind for name, kind in zip(layout.names, kinds, strict=True) if name not in times}
     words = [name for name, kind in values.items() if kind == "str" and name not in forced]
-    _refuse_without_values(values, layout, words, cells_of, where)
+    _refuse_without_values(table, values, words, cells_of)
     numbers = {name: cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
     decimal = _decimal(said.get("decimal"), numbers, delimiter, where)
     bare = {name: kind for name, kind in values.items() if units[name] is None}
@@ -70,7 +60,7 @@ def look_at_columns(
             kinds[layout.names.index(one.of)] = "float64"
     bare = {name: kind for name, kind in bare.items() if not any(name in (one.column, one.of) for one in paired)}
     units_told = unit.note() if unit else unit_column_note(bare, cells_of)
-    stands, standing_note = standing_columns(said, layout, groups, kinds, cells_of, qualities.of_values, where)
+    stands, standing_note = standing_columns(table, kinds, cells_of, qualities.of_values)
     notes = (
         decimal.note,
         *(unit_note(cells_of[name], name) for name in words),
@@ -92,13 +82,12 @@ def look_at_columns(
     )
 
 
-def _kinds(
-    layout: Layout, groups: Sequence[TimedGroup], cells_of: Mapping[str, list[str]], texts: Collection[str]
-) -> list[str | None]:
+def _kinds(table: Sampled, cells_of: Mapping[str, list[str]], texts: Collection[str]) -> list[str | None]:
     """The dtype of each column, None for one without values. texts: columns that are text whatever their cells."""
+    layout = table.layout
     times = {
         i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
-        for g in groups
+        for g in table.groups
         for i in g.group.time
     }
     return [
@@ -108,24 +97,20 @@ def _kinds(
 
 
 def _refuse_without_values(
-    kinds: Mapping[str, str | None],
-    layout: Layout,
-    words: Sequence[str],
-    cells_of: Mapping[str, list[str]],
-    where: str,
+    table: Sampled, kinds: Mapping[str, str | None], words: Sequence[str], cells_of: Mapping[str, list[str]]
 ) -> None:
     """kinds: of the columns beside the time; words: those of them that are text by their cells alone."""
     if not any(kind is not None for kind in kinds.values()):
         raise FormatError(
             "no column beside the time",
-            where=where,
+            where=table.where,
             expected="values",
-            got=", ".join(layout.names),
+            got=", ".join(table.layout.names),
             hint="a file of times alone has nothing to read; if one of the columns is none, declare the "
             "time: table: {time: {column: NAME}}",
         )
     if all(kind in (None, "str") for kind in kinds.values()):
-        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
+        refuse_units_in_cells([c for name in words for c in cells_of[name]], table.where)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,32 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.rows.changed_cells import KEY, declared_standing, find_standing
 from thermodata.reader.text.rows.quality_columns import Pairs
+from thermodata.reader.text.tables.sampled import Sampled
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import row_time
 from thermodata.reader.times.zone import NAT
 
 
 def standing_columns(
-    said: Mapping[str, Any],
-    layout: Layout,
-    groups: Sequence[TimedGroup],
-    kinds: Sequence[str | None],
-    cells_of: Mapping[str, Sequence[str]],
-    quality: Pairs,
-    where: str,
+    table: Sampled, kinds: Sequence[str | None], cells_of: Mapping[str, Sequence[str]], quality: Pairs
 ) -> tuple[frozenset[int], str | None]:
     """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell. The
     quality of such a value stands as it does, or a bad one would be good from the next row on."""
+    layout, groups = table.layout, table.groups
     columns = [i for g in groups for i in g.group.columns]
     names = [layout.names[i] for i in columns if kinds[i] is not None]
     qualities = {own for own, _ in quality.values()}
-    told = declared_standing(said.get(KEY), [layout.names[i] for i in columns], where, layout.names)
+    told = declared_standing(table.said.get(KEY), [layout.names[i] for i in columns], table.where, layout.names)
     note = None
     if told is None:
         if len(groups) > 1 or groups[0].group.counted or _runs_back(groups[0], layout, cells_of):

@@ -1,8 +1,10 @@
-"""The cells of a table's sampled rows, by column: those in which a column has its time."""
+"""A table as far as it was sampled, and the cells of each column there, in the rows that have a time for it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.page.group import Group
@@ -23,13 +25,24 @@ def still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list
     return [r for r in rows if any(clean(r[i]) for i in group.time if i < len(r))]
 
 
-def sampled_cells(layout: Layout, groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> dict[str, list[str]]:
-    """The cells of each column by its name, in the rows that have a time for it."""
-    found: dict[int, list[str]] = {}
-    for timed in groups:
-        dated = _dated(still_going(body, timed.group, layout), timed)
-        found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
-    return {name: found[i] for i, name in enumerate(layout.names)}
+@dataclass(frozen=True, slots=True)
+class Sampled:
+    """A table as far as it was sampled. said: what is declared of it; groups: its columns, each with the times of its
+    rows; body: rows with a cell for each column; where: the file, as errors name it."""
+
+    said: Mapping[str, Any]
+    layout: Layout
+    groups: tuple[TimedGroup, ...]
+    body: Sequence[list[str]]
+    where: str
+
+    def cells(self) -> dict[str, list[str]]:
+        """The cells of each column by its name, in the rows that have a time for it."""
+        found: dict[int, list[str]] = {}
+        for timed in self.groups:
+            dated = _dated(still_going(self.body, timed.group, self.layout), timed)
+            found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
+        return {name: found[i] for i, name in enumerate(self.layout.names)}
 
 
 def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
