@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +25,17 @@ if TYPE_CHECKING:
 
 Answer = dict[str, Any]
 Again = Callable[[RawStream, int, str, str], Answer]
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where the sample of a channel stands: its stream, the row there, and its time. again: see `find_sample`."""
+
+    series: TestSeries
+    member: Member
+    at: int
+    t_ns: int
+    again: Again | None
 
 
 _NEAR_S, _NEAR = 1.0, 0.05  # a time that was rounded lies no farther beyond the test [s], [of its length]
@@ -49,6 +61,7 @@ def find_sample(
     member = (channel["source"], channel["stream"])
     rows = series.rows(member)
     at = (rows.start if row.pop("part") == "test" else rows.history) + row["tidy"]["row"]
+    place = _Place(series, member, at, row["t_ns"], again)
     flags = row.pop("flags_set")
     sample = row | {
         "t": str(np.datetime64(row["t_ns"], "ns")) + "Z" if not series.span.relative else None,
@@ -57,13 +70,13 @@ def find_sample(
     }
     bound = series.plan.bound.get(channel["channel"])
     if bound is not None and bound.signal is not None:
-        sample["raw"] = _raw(series, member, at, bound.signal.name, again)
+        sample["raw"] = _raw(place, member, at, bound.signal.name)
     elif bound is not None and bound.channel.derive is not None:
         rated = _rated_channels(series, channel["channel"])
         sample["operands"] = [
             item
             for name in _logged_channels(series, channel["channel"])
-            for item in _behind(series, name, member, row["t_ns"], at, again, rated=name in rated)
+            for item in _behind(place, name, rated=name in rated)
         ]
     return sample
 
@@ -139,26 +152,27 @@ def _rated_channels(series: TestSeries, name: str) -> set[str]:
     return set(derive.rated(text)).union(*(_rated_channels(series, n) for n in derive.names(text)))
 
 
-def _behind(
-    series: TestSeries, name: str, home: Member, t_ns: int, at: int, again: Again | None, *, rated: bool
-) -> list[Answer]:
+def _behind(place: _Place, name: str, *, rated: bool) -> list[Answer]:
+    """The raw rows of a channel that a sample was made from. rated: whether its rate was taken."""
+    series = place.series
     bound = series.plan.bound[name]
     member = (bound.source, bound.stream)
     if bound.signal is None or member[0] == SCHEDULE:
         return [{"channel": name, "schedule": True}]
-    if member == home:
-        rows = series.rows_of_rate(bound, at) if rated else [at]
+    if member == place.member:
+        rows = series.rows_of_rate(bound, place.at) if rated else [place.at]
     else:
         line = series.timeline(member)
-        after = line.find(t_ns)
-        exact = after < line.rows and int(line.times(after, after + 1)[0]) == t_ns
+        after = line.find(place.t_ns)
+        exact = after < line.rows and int(line.times(after, after + 1)[0]) == place.t_ns
         held = bound.channel.quantity in STATES or series.as_written(bound).is_held
         rows = [after] if exact else [r for r in ((after - 1,) if held else (after - 1, after)) if 0 <= r < line.rows]
-    return [{"channel": name, **_raw(series, member, r, bound.signal.name, again)} for r in rows]
+    return [{"channel": name, **_raw(place, member, r, bound.signal.name)} for r in rows]
 
 
-def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again | None) -> Answer:
+def _raw(place: _Place, member: Member, at: int, signal: str) -> Answer:
     """A row of a stream in its raw file."""
+    series, again = place.series, place.again
     placed = raw_row_of(series, member, at)
     if placed is None:
         return {}

@@ -3,7 +3,7 @@ are many."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -112,7 +112,7 @@ def read_window(
             if files:
                 paths = [f["path"] for f in files]
                 with _damage_named([store.path / p for p in paths]):
-                    found.append(_window(con, store.path, paths, names, span, flagged, most))
+                    found.append(_window(con, store.path, paths, names, _Asked(span, flagged, most)))
     return found
 
 
@@ -148,70 +148,88 @@ def _facts(con: duckdb.DuckDBPyConnection, table: str, files: Sequence[Path]) ->
     return known
 
 
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a screen asks of a stretch. span: (from, to) [s], all where None; most: samples that it draws."""
+
+    span: tuple[float, float] | None
+    flagged: bool
+    most: int
+
+    def value(self, name: str) -> str:
+        """A channel's value as SQL, NULL where it does not count and only what does is asked for."""
+        counts = f"{quoted(name + '__flag')} & {int(INVALID)} = 0"
+        return quoted(name) if self.flagged else f"case when {counts} then {quoted(name)} end"
+
+
+@dataclass(frozen=True, slots=True)
+class _Stretch:
+    """Rows of a stream's files. table: these, as SQL; values: channel -> its value, as SQL; low, high: first and last
+    time [s]."""
+
+    con: duckdb.DuckDBPyConnection
+    table: str
+    values: Mapping[str, str]
+    low: float
+    high: float
+
+    @property
+    def where(self) -> str:
+        return f"t_s between {self.low!r} and {self.high!r}"
+
+    def each(self) -> Window:
+        """The samples themselves."""
+        columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in self.values.items())
+        got = self.con.execute(
+            f"select t_s as t__s, {columns} from {self.table} where {self.where} order by t_s"
+        ).fetchnumpy()
+        return Window(floats(got["t__s"]), {n: floats(got[n]) for n in self.values}, True)
+
+    def binned(self, bins: int) -> tuple[Window, int]:
+        """The lowest and the highest of each bin, and how many samples there are in all: one pass tells both."""
+        width = (self.high - self.low) / bins or 1.0
+        columns = ", ".join(
+            f"min(cast({v} as double)) as {quoted(n + '__low')}, max(cast({v} as double)) as {quoted(n + '__high')}"
+            for n, v in self.values.items()
+        )
+        got = self.con.execute(
+            f"select least(cast(floor((t_s - {self.low!r}) / {width!r}) as integer), {bins - 1}) as bin__k, "
+            f"count(*) as bin__n, {columns} from {self.table} where {self.where} group by 1 order by 1"
+        ).fetchnumpy()
+        at = np.asarray(got["bin__k"], dtype=np.int64)
+        t_s = self.low + (np.repeat(np.arange(bins), 2) + np.tile([0.25, 0.75], bins)) * width
+        out = {}
+        for n in self.values:
+            both = np.full((bins, 2), np.nan)
+            both[at, 0], both[at, 1] = floats(got[n + "__low"]), floats(got[n + "__high"])
+            out[n] = both.ravel()
+        return Window(t_s, out, False), int(np.sum(got["bin__n"]))
+
+
 def _window(
-    con: duckdb.DuckDBPyConnection,
-    folder: Path,
-    paths: Sequence[str],
-    names: Sequence[str],
-    span: tuple[float, float] | None,
-    flagged: bool,
-    most: int,
+    con: duckdb.DuckDBPyConnection, folder: Path, paths: Sequence[str], names: Sequence[str], asked: _Asked
 ) -> Window:
     table = f"read_parquet({file_list(paths)}, hive_partitioning = false)"
     there, (low, high, count) = _facts(con, table, [folder / p for p in paths])
     names = [n for n in names if n in there]
-    if span is not None:
-        share = (min(high, span[1]) - max(low, span[0])) / (high - low or 1.0)
-        low, high = max(low, span[0]), min(high, span[1])
-        if count * share < _CLEARLY * most:  # where there are clearly many, how many exactly decides nothing
+    if asked.span is not None:
+        start, stop = asked.span
+        share = (min(high, stop) - max(low, start)) / (high - low or 1.0)
+        low, high = max(low, start), min(high, stop)
+        if count * share < _CLEARLY * asked.most:  # where there are clearly many, how many exactly decides nothing
             inside = con.execute(f"select count(*) from {table} where t_s between ? and ?", [low, high]).fetchone()
             count = inside[0] if inside else 0
     if not names or not count:
         return _nothing(names)
-    values = {
-        n: quoted(n) if flagged else f"case when {quoted(n + '__flag')} & {int(INVALID)} = 0 then {quoted(n)} end"
-        for n in names
-    }
-    where = f"t_s between {low!r} and {high!r}"
-    if count > most:
-        window, count = _binned(con, table, where, values, low, high, most // 2)
-        if count > most:
+    stretch = _Stretch(con, table, {n: asked.value(n) for n in names}, low, high)
+    if count > asked.most:
+        window, count = stretch.binned(asked.most // 2)
+        if count > asked.most:
             return window
         if not count:
             return _nothing(names)
-    # few samples, also where a logger that was fast elsewhere promised many: these themselves
-    columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in values.items())
-    got = con.execute(f"select t_s as t__s, {columns} from {table} where {where} order by t_s").fetchnumpy()
-    return Window(floats(got["t__s"]), {n: floats(got[n]) for n in names}, True)
-
-
-def _binned(
-    con: duckdb.DuckDBPyConnection,
-    table: str,
-    where: str,
-    values: dict[str, str],
-    low: float,
-    high: float,
-    bins: int,
-) -> tuple[Window, int]:
-    """The lowest and the highest of each bin, and how many samples there are in all: one pass tells both."""
-    width = (high - low) / bins or 1.0
-    columns = ", ".join(
-        f"min(cast({v} as double)) as {quoted(n + '__low')}, max(cast({v} as double)) as {quoted(n + '__high')}"
-        for n, v in values.items()
-    )
-    got = con.execute(
-        f"select least(cast(floor((t_s - {low!r}) / {width!r}) as integer), {bins - 1}) as bin__k, "
-        f"count(*) as bin__n, {columns} from {table} where {where} group by 1 order by 1"
-    ).fetchnumpy()
-    at = np.asarray(got["bin__k"], dtype=np.int64)
-    t_s = low + (np.repeat(np.arange(bins), 2) + np.tile([0.25, 0.75], bins)) * width
-    out = {}
-    for n in values:
-        both = np.full((bins, 2), np.nan)
-        both[at, 0], both[at, 1] = floats(got[n + "__low"]), floats(got[n + "__high"])
-        out[n] = both.ravel()
-    return Window(t_s, out, False), int(np.sum(got["bin__n"]))
+    # few samples, also where a logger that was fast elsewhere promised many
+    return stretch.each()
 
 
 def _nothing(names: Sequence[str]) -> Window:
