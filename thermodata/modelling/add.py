@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
@@ -15,11 +17,16 @@ from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.modelling.versions.slips import lines_of_test, with_lines
 from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.answers.result import FitResult
-from thermodata.schema.files.model import EffectSpec
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
+    from thermodata.effect.binding import Described
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
+    from thermodata.store.catalogue.models.fits import StoredModel
+    from thermodata.view.grid.dataset import Dataset
 
 
 @again_where_data_changed
@@ -42,6 +49,46 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
             hint="'thermodata diagnose MODEL' lists the candidates with their ranks",
         )
     found = load_diagnosis(store, parent.model)
+    grown = _with_candidates(store, parent, old.data, found, candidates)
+    before = make_result(old.fitted, old.data, parent.model).scores
+    by_it = found if found is not None and any(c.id in grown.names for c in found.candidates) else None
+    scored = {(s.campaign, s.test) for s in before}
+    # what was found before the data changed may be mended
+    diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data, scored)
+    spec, notes = heeding(grown.spec, old.data, diagnosis.put_right if diagnosis is not None else None)
+    if not plain and len(grown.slips) < len(candidates):  # a slip taken out is no reason for another lag
+        refined = with_second_lags(spec, old.data)
+        of_one = found if found is not None and [found.response] == parent.result.responses else None
+        said = beside_foretold(of_one, grown.names, refined.lags)
+        spec, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
+    added, of_response = _added(parent.spec, spec, old.data.channels)
+    notes = [*notes, *since, *of_response]
+    result = fit_once(store, spec, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
+    claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
+    all_taken = bool(claims) and {c.id for c in claims} <= set(grown.names)
+    if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:
+        return result
+    return _as_asked_of_locked(result, claims[0])
+
+
+@dataclass(frozen=True, slots=True)
+class _Grown:
+    """A model with what is named to be added. names: candidates, by their ids; slips: those of them that take a step of
+    a probe out."""
+
+    spec: Model
+    names: list[str]
+    slips: list[str]
+
+
+def _with_candidates(
+    store: Store,
+    parent: StoredModel,
+    data: Dataset,
+    found: Diagnosis | None,
+    candidates: Sequence[str | int | EffectSpec],
+) -> _Grown:
+    """found: the stored diagnosis of the parent. UsageError where one is named twice, or is in the model already."""
     grown, names, slips = parent.spec, list[str](), list[str]()
     for candidate in candidates:
         if isinstance(candidate, EffectSpec):
@@ -56,7 +103,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
                 hint="leave one of the two out",
             )
         names.append(name)
-        lines = lines_of_test(name, grown, old.data, found, parent.result.responses)
+        lines = lines_of_test(name, grown, data, found, parent.result.responses)
         if lines and any(line in grown.effects for line in lines):
             raise UsageError(
                 f"candidate '{name}' is in the model already",
@@ -65,32 +112,23 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
                 hint="'thermodata remove MODEL EFFECT' first, where it is to be put in otherwise",
             )
         slips += [name] if lines else []
-        grown = with_lines(grown, lines) if lines else with_candidate(grown, name, old.data.channels)
-    before = make_result(old.fitted, old.data, parent.model).scores
-    by_it = found if found is not None and any(c.id in names for c in found.candidates) else None
-    scored = {(s.campaign, s.test) for s in before}
-    # what was found before the data changed may be mended
-    diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data, scored)
-    grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
-    if not plain and len(slips) < len(candidates):  # a slip taken out is no reason for another lag
-        refined = with_second_lags(grown, old.data)
-        of_one = found if found is not None and [found.response] == parent.result.responses else None
-        said = beside_foretold(of_one, names, refined.lags)
-        grown, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
-    had = term_ids(parent.spec.effects)
-    added = [i for i in term_ids(grown.effects) if i not in had]
-    own = [e for e, i in zip(grown.effects, term_ids(grown.effects), strict=True) if i in added]
-    named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
-    notes = [*notes, *since, *filter(None, [note_of_response(list(named), old.data.channels)])]
-    result = fit_once(store, grown, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
-    claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
-    all_taken = bool(claims) and {c.id for c in claims} <= set(names)
-    if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:
-        return result
-    # the lock was opened for all claims together, on these data: what that gave is told, and nothing is opened again
+        grown = with_lines(grown, lines) if lines else with_candidate(grown, name, data.channels)
+    return _Grown(grown, names, slips)
+
+
+def _added(parent: Model, grown: Model, channels: Mapping[str, Described]) -> tuple[list[str], list[str]]:
+    """(the ids of what is new; what is to be known of channels that are responses and drive it)."""
+    had = term_ids(parent.effects)
+    new = [(i, e) for i, e in zip(term_ids(grown.effects), grown.effects, strict=True) if i not in had]
+    drivers = dict.fromkeys(str(channel) for _, effect in new for channel in effect.drivers.values())
+    note = note_of_response(list(drivers), channels)
+    return [i for i, _ in new], [note] if note else []
+
+
+def _as_asked_of_locked(result: FitResult, claim: Candidate) -> FitResult:
+    """With what the lock gave that was opened for all claims together, on these data: it is not opened again."""
     told = ("before", "after", "fitted")
-    asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in told}
-    return result.model_copy(update=asked)
+    return result.model_copy(update={key: getattr(claim, key) for key in (f"locked_rmse_um_{when}" for when in told)})
 
 
 def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:
