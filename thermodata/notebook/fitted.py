@@ -140,11 +140,12 @@ class Fit(Shown):
         'campaign:ID' is the campaign where a path is called so too. What can't be predicted is left out, with the
         reason in `left_out`. conditions: of all tests, as logs without a campaign file say none: {"tool": "A"}.
         UsageError where there is no test; a `NoBandWarning` where the band of 95 % is not known, and is NaN."""
-        from thermodata.draft.known.to_predict import predict_logs
+        from thermodata.draft.known.to_predict import Listener, ToPredict, predict_logs
 
         heed(self.store, [self.id])
         lost = list[str]()
-        logs = predict_logs(self.store, self.id, os.fspath(target), lost.append, conditions=conditions)
+        asked = ToPredict(os.fspath(target), conditions=conditions or {})
+        logs = predict_logs(self.store, self.id, asked, Listener(lost.append))
         heed_no_band(logs.band.why_not)
         return Predictions(self.id, logs.made, [*logs.left_out, *lost])
 

@@ -71,14 +71,14 @@ def predict_command(
     Exit code 3 says that tests were left out.
     """
     from thermodata.cli.terminal.progress import progress_line
-    from thermodata.draft.known.to_predict import predict_logs
+    from thermodata.draft.known.to_predict import Listener, ToPredict, predict_logs
     from thermodata.export.series import check_out, write_table
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
     one, given = resolve(store, model), dict(map(_condition, conditions))
     with progress_line() as line:
-        logs = predict_logs(store, one, target, session.say, line, tests, given)
+        logs = predict_logs(store, one, ToPredict(target, tests, given), Listener(session.say, line))
     for reason in logs.left_out:
         session.say(f"left out: {reason}")
     if logs.made and out is not None and kind is not None:

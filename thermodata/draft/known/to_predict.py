@@ -6,7 +6,7 @@ import glob
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,16 +27,28 @@ if TYPE_CHECKING:
 OF_STORE = "campaign:"  # before the id of a campaign, where a path is called so too
 
 
+@dataclass(frozen=True, slots=True)
+class ToPredict:
+    """What is to be predicted. target: a campaign of the store, a campaign file, a folder of logs, or one of these;
+    tests: none but these, where any are named; conditions: of all tests, beside their own or in place of them."""
+
+    target: str
+    tests: Collection[str] = ()
+    conditions: Mapping[str, str | float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """Who is told while logs are read. say: of losses; progress: how far it is."""
+
+    say: Callable[[str], object]
+    progress: Progress | None = None
+
+
 @contextmanager
-def data_of(
-    store: Store,
-    fitted: FittedModel,
-    target: str,
-    say: Callable[[str], object],
-    progress: Progress | None = None,
-) -> Iterator[tuple[Dataset, list[str]]]:
+def data_of(store: Store, fitted: FittedModel, target: str, listener: Listener) -> Iterator[tuple[Dataset, list[str]]]:
     """The tests of a campaign of the store; of a campaign file or a folder, through a store that goes again. And tests
-    without data. say: is told of losses."""
+    without data."""
     path = Path(target)
     with store.reader() as con:
         known = [str(row[0]) for row in con.execute("select campaign from campaign order by 1").fetchall()]
@@ -60,7 +72,7 @@ def data_of(
             hint="check the path, or 'thermodata tests' for the campaigns of the store",
         )
     with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
-        passing, campaign = _ingested(say, progress, store, fitted, path, Path(folder))
+        passing, campaign = _ingested(store, fitted, path, Path(folder), listener)
         yield _loaded(passing, campaign, fitted.spec.step)
 
 
@@ -75,51 +87,36 @@ class LogsPredicted:
     left_out: list[str]
 
 
-def predict_logs(
-    store: Store,
-    model: str,
-    target: str,
-    say: Callable[[str], object],
-    progress: Progress | None = None,
-    tests: Collection[str] = (),
-    conditions: Mapping[str, str | float] | None = None,
-) -> LogsPredicted:
-    """A model of the store on all tests of the target, or on those named. say: is told of losses; conditions: of all
-    tests, beside their own or in place of them. UsageError for an unknown test, and where there is none."""
+def predict_logs(store: Store, model: str, asked: ToPredict, listener: Listener) -> LogsPredicted:
+    """A model of the store on the tests that are asked for. UsageError for an unknown test, and where there is none."""
     from thermodata.modelling.compare.ahead import ahead
     from thermodata.modelling.on_its_tests import on_its_tests
     from thermodata.modelling.run import load
 
     loaded = on_its_tests(store, load(store, model, uncertainty=True))
     band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
-    made, left_out = _predicted(store, loaded.fitted, target, say, progress, tests, conditions or {})
+    made, left_out = _predicted(store, loaded.fitted, asked, listener)
     return LogsPredicted(loaded, band, [band.of(p) for p in made], left_out)
 
 
 def _predicted(
-    store: Store,
-    fitted: FittedModel,
-    target: str,
-    say: Callable[[str], object],
-    progress: Progress | None,
-    tests: Collection[str],
-    conditions: Mapping[str, str | float],
+    store: Store, fitted: FittedModel, asked: ToPredict, listener: Listener
 ) -> tuple[list[Predicted], list[str]]:
     from thermodata.modelling.predictions.conditions import under
     from thermodata.modelling.predictions.predict import predict
 
-    with data_of(store, fitted, target, say, progress) as (data, empty):
+    with data_of(store, fitted, asked.target, listener) as (data, empty):
         known = [t.test for t in data.tests]
-        for name in tests:
+        for name in asked.tests:
             if name not in known:
                 raise unknown_name("test", name, known)
-        chosen = replace(data, tests=tuple(t for t in data.tests if not tests or t.test in tests))
-        made, left_out = predict(fitted, under(chosen, conditions))
-    left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
+        chosen = replace(data, tests=tuple(t for t in data.tests if not asked.tests or t.test in asked.tests))
+        made, left_out = predict(fitted, under(chosen, asked.conditions))
+    left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not asked.tests]
     if not made and not left_out:
         raise UsageError(
             "no test can be predicted",
-            where=target,
+            where=asked.target,
             got="no test",
             hint="name a campaign with tests, or a folder with logs",
         )
@@ -137,14 +134,8 @@ def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[s
     return data, [f"{campaign}/{row[0]}" for row in rows if row[0] not in there]
 
 
-def _ingested(
-    say: Callable[[str], object],
-    progress: Progress | None,
-    store: Store,
-    fitted: FittedModel,
-    path: Path,
-    folder: Path,
-) -> tuple[Store, str]:
+def _ingested(store: Store, fitted: FittedModel, path: Path, folder: Path, listener: Listener) -> tuple[Store, str]:
+    """(a store in the folder that holds what is at the path, the id of its campaign)."""
     from thermodata.draft.known.of_logs import campaign_of_logs
     from thermodata.modelling.inputs.drivers import names_of
     from thermodata.store import Store
@@ -155,7 +146,7 @@ def _ingested(
     log = path.is_file() and path.suffix.lower() not in (".yaml", ".yml")
     file = None if log else path if path.is_file() else _campaign_file(path)
     if file is not None:
-        summary = ingest(passing, file, progress=progress)
+        summary = ingest(passing, file, progress=listener.progress)
     else:
         first = fitted.spec.campaign_ids[0]
         terms = [t for r in fitted.responses for t in r.terms]
@@ -166,9 +157,9 @@ def _ingested(
         made = campaign_of_logs(known, folder_of_logs, needed)
         if log:
             made = _of_log(made, path)
-        summary = ingest(passing, folder_of_logs / "campaign.yaml", progress=progress, campaign=made)
+        summary = ingest(passing, folder_of_logs / "campaign.yaml", progress=listener.progress, campaign=made)
     for loss in summary.losses:
-        say(f"loss: {loss.get('reason', loss)}")
+        listener.say(f"loss: {loss.get('reason', loss)}")
     return passing, summary.campaign
 
 
