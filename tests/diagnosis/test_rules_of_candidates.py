@@ -9,6 +9,7 @@ import pytest
 
 from thermodata.diagnosis.candidates.grid import grid
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.claims.refines import mode_of
 from thermodata.diagnosis.question.present import Present
@@ -105,14 +106,14 @@ def test_what_a_place_tells_from_what_it_refines_is_asked_alone_where_that_moves
 ) -> None:
     """Where the model has what it refines it is a mode of it, as before; and by another channel it isn't asked."""
     library = {e.name: e for e in (NUT, GROWS, replace(NUT, name="motor"))}
-    found = {c.id: c.kin for c in candidates(library, PLACED, present, "dZ", moving)}
+    found = {c.id: c.kin for c in candidates(library, PLACED, present, "dZ", Seen(moving))}
     assert found.get("growth:T_nut,x", "not asked") == kin
 
 
 def test_where_an_axis_stands_tells_no_part_of_it_from_another() -> None:
     """Its guide may be what its screw seems, as where the place is not read."""
     library = {"feed_screw": effects()["feed_screw"], "screw_growth": effects()["screw_growth"]}
-    found = {c.id: c.unread for c in candidates(library, PLACED, (), "dZ", ("x",))}
+    found = {c.id: c.unread for c in candidates(library, PLACED, (), "dZ", Seen(("x",)))}
     assert found == {"feed_screw:T_nut": ("axis.x.guide",), "screw_growth:T_nut,x": ("axis.x.guide",)}
 
 
@@ -210,7 +211,9 @@ def test_a_table_that_is_as_warm_where_nothing_turns_it_makes_no_heat(stood: flo
         _turned(i, channels, *own)
         for i, own in enumerate([turning, turning, *([] if stood is None else 2 * [resting])])
     ]
-    found = {c.id: c.passive for c in candidates(effects(), channels, (), "dZ", at_rest=warm_at_rest(channels, tests))}
+    found = {
+        c.id: c.passive for c in candidates(effects(), channels, (), "dZ", Seen(at_rest=warm_at_rest(channels, tests)))
+    }
     assert ("table_bearing:T_table" in found) is not body
     assert found["lag:T_table"] is body
 

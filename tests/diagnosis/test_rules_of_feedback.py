@@ -8,6 +8,7 @@ import pytest
 
 from thermodata.diagnosis.candidates.feedback import feedback_of_axes
 from thermodata.diagnosis.candidates.of_library import candidates
+from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.effect import effects
 from thermodata.errors import PluginError
 from thermodata.testing.effect import check_effect
@@ -40,7 +41,7 @@ SCREWS = {"feed_screw:T_nut", "feed_screw:v", "feed_screw:v1"}
 def test_a_screw_is_not_asked_of_an_axis_with_a_scale_and_all_else_of_it_is(
     feedback: dict[str, str], left_out: set[str]
 ) -> None:
-    found = {c.id for c in candidates(effects(), CHANNELS, (), "dZ", feedback=feedback)}
+    found = {c.id for c in candidates(effects(), CHANNELS, (), "dZ", Seen(feedback=feedback))}
     assert found & SCREWS == SCREWS - left_out
     assert {"guideway:T_guide", "lag:T_nut", "lag:v", "lag:v1"} <= found
 

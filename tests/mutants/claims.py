@@ -944,7 +944,7 @@ MUTANTS = [
     diagnosis("artefact.py", "commands.make(n) >= least", "True", "it is asked wherever an axis is logged"),
     diagnosis("of_library.py", "not (alone or ", "not (", "the growth of a screw is never missing"),
     diagnosis(
-        "of_library.py", "in self.telling and not", "is not None and not", "a place that tells nothing is a cause"
+        "of_library.py", "in self.seen.telling and not", "is not None and not", "a place that tells nothing is a cause"
     ),
     diagnosis("of_library.py", " if role != told_by(effect)]", "]", "a place tells a screw from its guideway"),
     diagnosis("kin.py", "(told_by(effect) is None or ", "(", "a mode of a lag is a cause"),

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.feedback import is_kept_from_the_tool
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
+from thermodata.diagnosis.candidates.seen import NOTHING, Seen
 from thermodata.diagnosis.candidates.unread import Part, is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.diagnosis.candidates.warm_at_rest import is_at_table, turns
 from thermodata.diagnosis.question.present import (
@@ -149,15 +150,10 @@ def candidates(
     channels: Mapping[str, ChannelInfo],
     present: Iterable[Present],
     response: str,
-    telling: Container[str] = (),
-    at_rest: Container[str] = (),
-    feedback: Mapping[str, str] | None = None,
+    seen: Seen = NOTHING,
 ) -> list[CandidateEffect]:
-    """What could be missing. present: what the model has. telling: positions that make steps where they go from one
-    place to another. at_rest: temperatures of tables that are as warm where nothing turns them. feedback: axis -> what
-    closes its loop, where that is declared. Every channel is asked
-    as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are looked for within
-    tests, not here."""
+    """What could be missing. present: what the model has. Every channel is asked as a plain lag too, whatever named
+    effects it drives: a name must earn its place. Artefacts are looked for within tests, not here."""
     own = tuple(present)
     plain = tuple(p for p in own if is_plain(p.effect, library))
     # a plain function is no other effect than what it stands for
@@ -169,7 +165,7 @@ def candidates(
     if response in channels and channels[response].quantity == "temperature":
         known |= {part for part in [part_of(channels[response].at)] if part}
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
-    beside = _Beside(library, usable, model, plain, frozenset(known), placed, telling, at_rest, feedback or {})
+    beside = _Beside(library, usable, model, plain, frozenset(known), placed, seen)
     # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
     asked = [e for e in library.values() if not (e.family == ARTEFACT or not e.needs or e.name == STATIC)]
     found = [beside.candidate(e, binding) for e in asked for binding in bindings(e, usable)]
@@ -189,8 +185,7 @@ def that_may_drive(channels: Mapping[str, ChannelInfo], response: str) -> dict[s
 @dataclass(frozen=True, slots=True)
 class _Beside:
     """What each effect is held against. usable: channels that may drive one. model: what is there already; plain: the
-    functions without a name in it; known: the parts that it has. placed: whether any temperature has a place. telling,
-    at_rest, feedback: as `candidates` has them."""
+    functions without a name in it; known: the parts that it has. placed: whether any temperature has a place."""
 
     library: Mapping[str, Effect]
     usable: Mapping[str, ChannelInfo]
@@ -198,9 +193,7 @@ class _Beside:
     plain: tuple[Present, ...]
     known: frozenset[Part]
     placed: bool
-    telling: Container[str]
-    at_rest: Container[str]
-    feedback: Mapping[str, str]
+    seen: Seen
 
     def candidate(self, effect: Effect, binding: Mapping[str, str]) -> CandidateEffect | None:
         """An effect by some channels; None where it is not asked: the model has it, it refines nothing, it would have
@@ -209,9 +202,9 @@ class _Beside:
         names, family = frozenset(binding.values()), family_of(effect, binding, usable)
         if self._is_there(effect, names) or self._refines_nothing(effect, binding, family):
             return None
-        if is_kept_from_the_tool(effect, [usable[n] for n in names], self.feedback):
+        if is_kept_from_the_tool(effect, [usable[n] for n in names], self.seen.feedback):
             return None
-        nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, self.at_rest)]
+        nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, self.seen.at_rest)]
         if not nameless and len(bodies) == len(names):
             return None
         # where an axis stands tells no part of it from another
@@ -240,7 +233,9 @@ class _Beside:
         if not refines(effect):
             return False
         # beside what it refines, by another channel, it is no cause either
-        alone = binding.get(told_by(effect) or "") in self.telling and not self.model.has_any(refines(effect), family)
+        alone = binding.get(told_by(effect) or "") in self.seen.telling and not self.model.has_any(
+            refines(effect), family
+        )
         return not (alone or self.model.has_one_of(refines(effect), frozenset(binding.values())))
 
 

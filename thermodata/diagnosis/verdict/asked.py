@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.diagnosis.candidates.feedback import feedback_of_axes
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.problem import Problem
@@ -20,5 +21,5 @@ def of_library(
 ) -> list[CandidateEffect]:
     """What could be missing, by the channels and by what these did in the tests. fine: in the samples in which steps
     are looked for."""
-    telling, warm = places_that_tell(fine), warm_at_rest(data.channels, tests)
-    return candidates(library, data.channels, present(fitted), fitted.name, telling, warm, feedback_of_axes(tests))
+    seen = Seen(places_that_tell(fine), warm_at_rest(data.channels, tests), feedback_of_axes(tests))
+    return candidates(library, data.channels, present(fitted), fitted.name, seen)
