@@ -15,7 +15,7 @@ from typing import Any
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.calibration.quality.ends.still import Reading
 from thermodata.store.tidy.clock.source_clock import Clock
-from thermodata.store.tidy.flags.between import Verdict, levels_of
+from thermodata.store.tidy.flags.between import Known, Verdict, levels_of
 
 Row = dict[str, Any]
 _NO_VERDICT = Verdict()
@@ -84,8 +84,8 @@ class TestNote:
 
     def levels(self, test: str) -> tuple[Levels, dict[str, Reading]] | None:
         """What its channels were like, for the tests beside it."""
-        files = [("test", {"to_s": to_s, "levels": levels}) for to_s, levels in self.courses]
-        return levels_of(test, self.start_s, self.quantities, self.powered, self.around, files, self.warm)
+        known = Known(test, self.start_s, self.warm, self.quantities, self.powered, self.around)
+        return levels_of(known, self.courses)
 
 
 @dataclass(frozen=True, slots=True)

@@ -148,31 +148,29 @@ def _rounded(x: Float1D) -> list[float | None]:
     return [round(float(v), 3) if np.isfinite(v) else None for v in x]
 
 
-def levels_of(
-    test: str,
-    start_s: float | None,
-    quantities: Mapping[str, str],
-    powered: Container[str],
-    around: Container[str],
-    files: Sequence[tuple[str, Mapping[str, Any]]],
-    warm: bool,
-) -> tuple[Levels, dict[str, Reading]] | None:
-    """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What is known of a test beside its levels. start_s: on the absolute clock; None where it has none. warm: the
+    campaign file says that it started so. quantities: of its channels. powered: those that stay warm or cold while the
+    machine is on. around: those that are not of the machine, or nobody says where they are."""
 
-    start_s: on the absolute clock; None where the test has none. quantities: of its channels. powered: those that
-    stay warm or cold while the machine is on. around: those that are not of the machine, or nobody says where
-    they are. files: the part of the test that each holds, and what is noted of it. warm: the campaign file says that
-    the test started so.
-    """
+    test: str
+    start_s: float | None
+    warm: bool
+    quantities: Mapping[str, str]
+    powered: Container[str]
+    around: Container[str]
+
+
+def levels_of(known: Known, courses: Iterable[Sequence[Any]]) -> tuple[Levels, dict[str, Reading]] | None:
+    """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept. courses:
+    (end [s], `levels` of its channels) of each file."""
     series: dict[str, Course] = {}
     pauses: list[tuple[float, float]] = []
     readings: dict[str, Reading] = {}
     end = 0.0
-    for part, meta in files:
-        if part != "test":
-            continue
-        end = max(end, meta["to_s"])
-        levels = meta.get("levels")
+    for to_s, levels in courses:
+        end = max(end, to_s)
         if not levels:
             continue
         t_s = _numbers(levels["t_s"])
@@ -182,17 +180,18 @@ def levels_of(
             series[name] = Course(
                 t_s,
                 _numbers(values),
-                quantities.get(name, ""),
+                known.quantities.get(name, ""),
                 off,
-                name in powered,
-                name in around,
+                name in known.powered,
+                name in known.around,
                 levels.get("flickers", {}).get(name),
             )
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
     if not series:
         return None
-    return Levels(test, start_s, None if start_s is None else start_s + end, series, tuple(pauses), warm), readings
+    stop_s = None if known.start_s is None else known.start_s + end
+    return Levels(known.test, known.start_s, stop_s, series, tuple(pauses), known.warm), readings
 
 
 def _numbers(values: Sequence[float | None]) -> Float1D:

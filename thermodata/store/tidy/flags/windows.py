@@ -79,7 +79,7 @@ class Joined:
         for name, column in columns.items():
             carried = self._carried.get(name)
             if start and carried is not None:
-                events = _continued(name, column.values, t_ns, flags[name], carried, start, events)
+                events = _Seam(name, column.values, t_ns, flags[name], start, carried).continued(events)
         for name, column in columns.items():
             added = flags[name][stop - 1] & ~column.flags[stop - 1]
             value = column.values[stop - 1]
@@ -132,37 +132,52 @@ def _longer(event: QualityEvent, more: QualityEvent, t_ns: Int1D, flags: Mapping
     return replace(event, to_ns=more.to_ns, n=n, detail=re.sub(r"for \d+ samples", f"for {n} samples", event.detail))
 
 
-def _continued(
-    name: str, x: Array, t_ns: Int1D, flags: Array, carried: _Carried, start: int, events: list[QualityEvent]
-) -> list[QualityEvent]:
-    """Goes on with what the window before ended in: changes `flags`, and returns the events as they are then."""
-    first = int(t_ns[start])
-    if carried.stands:
-        moved = np.flatnonzero(x[start:] != carried.value)
-        stop = start + int(moved[0]) if moved.size else len(x)
-        if stop > start:
-            flags[start - 1 : stop] = (flags[start - 1 : stop] & ~_STANDS) | np.uint16(carried.stands)
-            flag = Flag.STUCK if carried.stands & Flag.STUCK else Flag.HELD
-            events = [
-                e
-                for e in events
-                if not (e.channel == name and e.flag in ("held", "stuck") and e.from_ns <= first <= e.to_ns)
-            ]
-            events.append(
-                QualityEvent(
-                    name,
-                    flag.word,
-                    int(t_ns[start - 1]),
-                    int(t_ns[stop - 1]),
-                    stop - start + 1,
-                    f"exactly {carried.value:.6g} for {stop - start} samples",
-                )
-            )
-    if carried.off and not flags[start - 1] & _OFFSET:
-        # this window has seen nothing but the sensor that is off: what it takes for a step away is the way back
-        flags[start - 1 :] ^= _OFFSET
-        events = [e for e in events if not (e.channel == name and e.flag == "offset")]
-        edges = np.flatnonzero(np.diff(np.concatenate([[0], ((flags[start - 1 :] & _OFFSET) != 0).view(np.int8), [0]])))
-        for a, b in zip((edges[::2] + start - 1).tolist(), (edges[1::2] + start - 1).tolist(), strict=True):
-            events.append(QualityEvent(name, "offset", int(t_ns[a]), int(t_ns[b - 1]), b - a, "off again"))
-    return events
+@dataclass(frozen=True, slots=True)
+class _Seam:
+    """Where a column goes on from the window before. values, flags: shape (n,), of this window with the rows before
+    `start`; flags are changed in place. carried: what it was like at the row before `start`."""
+
+    name: str
+    values: Array
+    t_ns: Int1D
+    flags: Array
+    start: int
+    carried: _Carried
+
+    def continued(self, events: list[QualityEvent]) -> list[QualityEvent]:
+        """The events of the window as they are beside what the window before ended in."""
+        if self.carried.stands:
+            events = self._stands_on(events)
+        if self.carried.off and not self.flags[self.start - 1] & _OFFSET:
+            events = self._off_again(events)
+        return events
+
+    def _stands_on(self, events: list[QualityEvent]) -> list[QualityEvent]:
+        """A value that stood at the end of the window before goes on to stand until it moves."""
+        start, flags, carried = self.start, self.flags, self.carried
+        moved = np.flatnonzero(self.values[start:] != carried.value)
+        stop = start + int(moved[0]) if moved.size else len(self.values)
+        if stop == start:
+            return events
+        flags[start - 1 : stop] = (flags[start - 1 : stop] & ~_STANDS) | np.uint16(carried.stands)
+        flag = Flag.STUCK if carried.stands & Flag.STUCK else Flag.HELD
+        first, from_ns, to_ns = (int(self.t_ns[at]) for at in (start, start - 1, stop - 1))
+        others = [
+            e
+            for e in events
+            if not (e.channel == self.name and e.flag in ("held", "stuck") and e.from_ns <= first <= e.to_ns)
+        ]
+        detail = f"exactly {carried.value:.6g} for {stop - start} samples"
+        return [*others, QualityEvent(self.name, flag.word, from_ns, to_ns, stop - start + 1, detail)]
+
+    def _off_again(self, events: list[QualityEvent]) -> list[QualityEvent]:
+        """This window has seen nothing but the sensor that is off: what it takes for a step away is the way back."""
+        first, t_ns = self.start - 1, self.t_ns
+        self.flags[first:] ^= _OFFSET
+        off = ((self.flags[first:] & _OFFSET) != 0).view(np.int8)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], off, [0]]))) + first
+        others = [e for e in events if not (e.channel == self.name and e.flag == "offset")]
+        return others + [
+            QualityEvent(self.name, "offset", int(t_ns[a]), int(t_ns[b - 1]), b - a, "off again")
+            for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
+        ]
