@@ -35,6 +35,7 @@ BESIDE = {
     "rows/odd_rows.py": ("three_ways", "rows_width"),
     "rows/typed.py": ("three_ways", "rows_width"),
     "tables/table.py": ("delimited",),
+    "tables/group_rows.py": ("delimited",),
     "tables/table_rows.py": ("delimited",),
     "times/time_formats.py": ("time_formats",),
     "cells/time_pattern.py": ("timestamp", "time_formats"),
@@ -261,10 +262,10 @@ MUTANTS = [
     text("cells/delimiter.py", "body = body[len(body) // 3 :]", "body = body[:]", "a preamble tells the delimiter"),
     text("cells/delimiter.py", "or line.count('\"') % 2", "", "a quote left open swallows delimiters"),
     text("page/first_data.py", " and following[0] not in body[:i]", "", "a row above a repeated header is lost"),
-    text("tables/table_rows.py", "lines + 1)\n", "lines)\n", "a trace shows the line above"),
-    text("tables/table_rows.py", "cells.over * _OVER if cells.over.any() else None", "None", "overload is not flagged"),
+    text("tables/group_rows.py", "rows.line[good] + 1)\n", "rows.line[good])\n", "a trace shows the line above"),
+    text("tables/group_rows.py", "cells.over * _OVER if cells.over.any() else None", "None", "overload is not flagged"),
     text(
-        "tables/table_rows.py", "(cells.empty & ~cells.over) * _NONE", "cells.empty * _NONE", "overload is not measured"
+        "tables/group_rows.py", "(cells.empty & ~cells.over) * _NONE", "cells.empty * _NONE", "overload is not measured"
     ),
     text(
         "tables/table_rows.py",
@@ -282,7 +283,7 @@ MUTANTS = [
         "fractions far down are lost",
     ),
     text(
-        "tables/table_rows.py",
+        "tables/group_rows.py",
         "                if good[row]:\n",
         "                if True:\n",
         "a lost row is lost again by its cells",

@@ -123,8 +123,8 @@ def describe(table: Table, source: Source) -> Recording:
         if table.absolute:
             start = min(starts, default=0)
             notes += _zone_notes(table, source, start)
-        elif len(reader.clocks) == 1:
-            of_day = reader.clocks[0].days.first_ns
+        elif len(reader.groups) == 1:
+            of_day = reader.groups[0].clock.days.first_ns
     if table.begin is not None:
         notes.append(table.begin.note())
     else:
@@ -159,7 +159,7 @@ def _notes_of_counts(table: Table, source: Source) -> list[str]:
         # what it met on the way stands in the reader
         deque(reader.read(Chunk("\n".join((*some, "")).encode(), 0, 0, True)), maxlen=0)
         notes.update(dict.fromkeys(map(anew_note, reader.anew)))
-    timed = [(c.timed.group.time, c.counter) for c in reader.clocks]
+    timed = [(c.timed.group.time, c.counter) for c in (group.clock for group in reader.groups)]
     return [*notes] + [note for time, c in timed if time and (note := c.note(table.layout.names[time[0]])) is not None]
 
 

@@ -3,44 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.plugin import Block, Int1D, Loss, Source
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import to_float, why_none
+from thermodata.reader.text.cells.number import to_float
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.preamble.begin import Begin, begun_anew
-from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.event_line import is_event_line
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.quality_columns import values_of
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
+from thermodata.reader.text.tables.group_rows import Complaint, GroupRows, Parsed
 from thermodata.reader.text.tables.row_clock import RowClock
-from thermodata.reader.text.tables.table import Table, TimedGroup
+from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.times.second_sixty import SecondsSixty
 from thermodata.reader.times.zone import NAT
-from thermodata.schema.flag import Flag
 
 _BLOCK_VALUES = 1_000_000
 _HEAD_LINES = 40  # of a further head
-_NONE, _OVER = np.uint16(Flag.NOT_MEASURING), np.uint16(Flag.SATURATED)
-
-
-@dataclass(frozen=True, slots=True)
-class _Complaint:
-    """What is to be told of a line: a row or a cell that is lost."""
-
-    line: int
-    reason: str
-    size: int
-    column: str | None = None
 
 
 class RowReader:
@@ -54,11 +42,11 @@ class RowReader:
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
         self.sixty = SecondsSixty()
-        self.clocks = [RowClock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
+        self.groups = [
+            GroupRows(table, RowClock(timed, timed.stated or source.timezone, table.begin)) for timed in table.groups
+        ]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
-        # of rows that are of several sensors, each has values of its own
-        self._standing = {i: Standing() for i in (table.stands if table.series is None else ())}
         self.stopped = False
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
@@ -73,7 +61,7 @@ class RowReader:
         self._held = b"" if chunk.last else self._begins_at_the_end(data)
         data = data[: len(data) - len(self._held)]
         self._read = chunk.size - len(self._held)
-        told = [_Complaint(number, ODD, 0) for number in chunk.odd]
+        told = [Complaint(number, ODD, 0) for number in chunk.odd]
         if chunk.last and data and not data.endswith(b"\n"):
             cut = data.rfind(b"\n") + 1
             tail, data = data[cut:], data[:cut]
@@ -82,19 +70,20 @@ class RowReader:
             elif tail.strip(b"\0 \r\x1a"):
                 shown = tail[:80].decode("utf-8", "replace")
                 reason = f"expected a whole row (the file ends without a line end), got '{shown}'"
-                told.append(_Complaint(line + data.count(b"\n"), reason, len(tail)))
+                told.append(Complaint(line + data.count(b"\n"), reason, len(tail)))
         rows = self._parsed(data, line)
         rows, told = self._until_another_header(rows, told, data, line)
-        told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
+        told += [Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
             if not (self._repeats(bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
-                told.append(_Complaint(bad.line, reason, bad.size))
+                told.append(Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
         rows, others = self._by_words(rows)
         told += others
-        for number, clock in enumerate(self.clocks):
-            yield from self._group(clock, rows, told if number == 0 else [], data, line)
+        parsed = Parsed(rows, data, line)
+        for number, group in enumerate(self.groups):
+            yield from self._group(group, parsed, told if number == 0 else [])
 
     def _is_no_row(self, text: str, line: int) -> bool:
         """A line that says what happened is a loss beyond what the note on such lines has looked at."""
@@ -112,13 +101,16 @@ class RowReader:
         """Whether a line is one of the header again, or says that the rows behind it count from another start."""
         return line in self._anew or self.table.repeats_header(text)
 
+    def _is_head_or_footer(self, text: str, line: int) -> bool:
+        return self._repeats(text, line) or self._is_footer(text)
+
     def _is_footer(self, text: str) -> bool:
         return is_footer(self._cells(text))
 
     def _cells(self, text: str) -> list[str]:
         return [clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)]
 
-    def _torn(self, rows: Rows) -> list[_Complaint]:
+    def _torn(self, rows: Rows) -> list[Complaint]:
         """Rows that end with the columns of a group, as if the others had ended, though longer lines follow."""
         if not rows.short.size and not self._short.size:
             return []
@@ -126,11 +118,11 @@ class RowReader:
         last_whole = int(np.setdiff1d(rows.line, rows.short).max(initial=-1))
         self._short = waiting[waiting > last_whole]
         reason = "fewer cells than the lines behind it: what is missing is lost"
-        return [_Complaint(int(line), reason, 0) for line in waiting[waiting < last_whole]]
+        return [Complaint(int(line), reason, 0) for line in waiting[waiting < last_whole]]
 
-    def _by_words(self, rows: Rows) -> tuple[Rows, list[_Complaint]]:
+    def _by_words(self, rows: Rows) -> tuple[Rows, list[Complaint]]:
         """The rows without the values that stand behind other words than those that their columns are called by."""
-        columns, told = dict(rows.columns), list[_Complaint]()
+        columns, told = dict(rows.columns), list[Complaint]()
         for i, word in enumerate(self.table.layout.worded):
             if not word or self.table.kinds[i - 1] != "str":
                 continue
@@ -145,7 +137,7 @@ class RowReader:
             name = self.table.layout.names[i]
             for row in np.flatnonzero(lost).tolist():
                 size = len(str(held.values[row]))
-                told.append(_Complaint(int(rows.line[row]), other_word(word, words[row]), size, name))
+                told.append(Complaint(int(rows.line[row]), other_word(word, words[row]), size, name))
         return replace(rows, columns=columns), told
 
     def _is_whole(self, tail: bytes, before: bytes) -> bool:
@@ -165,10 +157,10 @@ class RowReader:
         return rows
 
     def _until_another_header(
-        self, rows: Rows, told: list[_Complaint], data: bytes, line: int
-    ) -> tuple[Rows, list[_Complaint]]:
+        self, rows: Rows, told: list[Complaint], data: bytes, line: int
+    ) -> tuple[Rows, list[Complaint]]:
         """The rows before a line that names the columns anew, or their units: what follows it is another table."""
-        since_ns = self.clocks[0].times(rows, peek=True)
+        since_ns = self.groups[0].clock.times(rows, peek=True)
         suspects = {*rows.line[since_ns == NAT].tolist(), *(b.line for b in rows.bad)}
         if not suspects:
             self._last_ns = int(since_ns[-1]) if since_ns.size else self._last_ns
@@ -183,7 +175,7 @@ class RowReader:
         self.stopped = True
         number, reason = found
         size = self._left(data, lines[: number - line])
-        return rows.before(number), [*(t for t in told if t.line < number), _Complaint(number, reason, size)]
+        return rows.before(number), [*(t for t in told if t.line < number), Complaint(number, reason, size)]
 
     def _begins_at_the_end(self, data: bytes) -> bytes:
         """The last lines of a chunk from one on that may be a further head: only the rows behind it tell."""
@@ -211,8 +203,8 @@ class RowReader:
             before = int(ns[k - 1]) if k else self._last_ns
             if begin is not None and before != NAT and k < ns.size and ns[k] < before:
                 self._anew[number] = begin
-                for clock in self.clocks:
-                    clock.anew[number] = begin
+                for group in self.groups:
+                    group.clock.anew[number] = begin
         self._last_ns = int(ns[-1]) if ns.size else self._last_ns
 
     def _left(self, data: bytes, before: Sequence[bytes]) -> int:
@@ -220,73 +212,20 @@ class RowReader:
         behind = len(data) - sum(len(line) + 1 for line in before)
         return max(1, self.losses.file_size - self._read + behind)
 
-    # ---- a group ---------------------------------------------------------------------------------
-
-    def _group(
-        self, clock: RowClock, rows: Rows, told: list[_Complaint], data: bytes, line: int
-    ) -> Iterator[Block | Loss]:
-        table, group = self.table, clock.timed.group
+    def _group(self, group: GroupRows, parsed: Parsed, told: list[Complaint]) -> Iterator[Block | Loss]:
+        rows, clock = parsed.rows, group.clock
         t_ns = clock.times(rows)
         good = t_ns != NAT
-        columns = [i for i in group.columns if table.kinds[i] is not None]
-        told = [*told, *self._without_time(clock, rows, good, columns, data, line)]
+        told = [*told, *group.without_time(parsed, good, self._is_head_or_footer)]
         if clock.timed.formats:
-            self.sixty.add([rows.times[i] for i in group.time], clock.timed.formats, rows.line, t_ns)
-        for i in columns:
-            kind = table.kinds[i] or ""
-            for row, cell in rows.columns[i].odd:
-                if good[row]:
-                    reason = why_none(cell, kind, self.grid.decimal)
-                    told.append(_Complaint(int(rows.line[row]), reason, len(cell), table.layout.names[i]))
+            self.sixty.add([rows.times[i] for i in clock.timed.group.time], clock.timed.formats, rows.line, t_ns)
+        told += group.odd_cells(rows, good, self.grid.decimal)
         lines, t_ns = rows.line[good], t_ns[good]
         for each in sorted(told, key=lambda c: c.line):
             at = int(np.searchsorted(lines, each.line))
             self.losses.add(each.line, each.reason, each.size, at, each.column)
         if t_ns.size:
-            block = self._block(clock.timed, rows, columns, good, t_ns, lines)
+            block = group.block(rows, good, t_ns)
             for first in range(0, t_ns.size, self.rows_of_a_block):
                 yield block.part(first, first + self.rows_of_a_block)
         yield from self.losses.dated(t_ns)
-
-    def _block(
-        self, timed: TimedGroup, rows: Rows, columns: list[int], good: Bool1D, t_ns: Int1D, lines: Int1D
-    ) -> Block:
-        values: dict[str, Array] = {}
-        flags: dict[str, Array] = {}
-        every = bool(good.all())
-        for i in columns:
-            name, kind, cells = self.table.layout.names[i], self.table.kinds[i], rows.columns[i]
-            values[name] = cells.values if every else cells.values[good]
-            flag = cells.over * _OVER if cells.over.any() else None
-            if kind not in ("float64", "str") and cells.empty.any():  # no NaN in them: 0, and not valid
-                none = (cells.empty & ~cells.over) * _NONE
-                flag = none if flag is None else flag | none
-            if flag is not None:
-                flag = flag.astype(np.uint16)[good]
-            if i in self._standing:
-                written = np.array([v is not None for v in values[name]], bool) if kind == "str" else ~cells.empty[good]
-                values[name], flag = self._standing[i].over(values[name], flag, written)
-            if flag is not None and flag.any():
-                flags[name] = flag
-        flags = self.table.qualities.flagged(flags, values)
-        return Block(timed.stream, t_ns, values, flags or None, lines + 1)
-
-    def _without_time(
-        self, clock: RowClock, rows: Rows, good: Bool1D, columns: list[int], data: bytes, line: int
-    ) -> Iterator[_Complaint]:
-        """The rows that have no time: but for repeated headers, and rows beside a group that has ended."""
-        lost = np.flatnonzero(~good)
-        if not lost.size:
-            return
-        lines = data.split(b"\n")
-        for row in lost.tolist():
-            number = int(rows.line[row])
-            text = lines[number - line].decode("utf-8", "replace").rstrip("\r")
-            if self._repeats(text, number) or self._is_footer(text):
-                continue
-            cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
-            own = [clean(cells[i]) if i < len(cells) else "" for i in (*clock.timed.group.time, *columns)]
-            if not any(own):
-                continue
-            got = "; ".join(own[: len(clock.timed.group.time)])
-            yield _Complaint(number, f"expected a time {clock.timed.said()}, got '{got[:80]}'", len(text))
