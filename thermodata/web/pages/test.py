@@ -24,7 +24,7 @@ from thermodata.view.lists.models import ModelRow, model_rows, role_in_model, te
 from thermodata.view.lists.response_units import measured_units, response_units
 from thermodata.web.chosen import WITHOUT, model_in
 from thermodata.web.command import command
-from thermodata.web.pages.parts.test_chart import drawn_as_curve, test_chart
+from thermodata.web.pages.parts.test_chart import NO_MODEL, OfModel, drawn_as_curve, test_chart
 from thermodata.web.query import seconds_in
 from thermodata.web.render import desk_of, page
 
@@ -45,8 +45,8 @@ def show(request: Request) -> Response:
     role = role_in_model(store, model.model, campaign, test) if model else None
     span = _span(given)
     moving = _moving(store, about, chosen, given) if span else chosen
-    order, named = _order(models, model), moving is not chosen
-    chart = _chart(store, about, moving, predicted, order, given, named=named)
+    of_model = _of_model(store, campaign, predicted, _order(models, model))
+    chart = _chart(store, about, moving, of_model, given, named=moving is not chosen)
     return page(
         request,
         "test.html.j2",
@@ -80,8 +80,8 @@ def data(request: Request) -> Response:
     known = _known(store, *_named(given))
     _, chosen = _channels(known, given)
     model = _model(store, known.models, given)
-    predicted, order = _predicted(store, model, given), _order(known.models, model)
-    chart = _chart(store, known.about, chosen, predicted, order, given)
+    of_model = _of_model(store, _named(given)[0], _predicted(store, model, given), _order(known.models, model))
+    chart = _chart(store, known.about, chosen, of_model, given)
     return JSONResponse(chart.as_json())
 
 
@@ -192,19 +192,21 @@ def _predicted(store: Store, model: ModelRow | None, given: Mapping[str, str]) -
     return predictions(store, model.model, *_named(given)) if model else []
 
 
+def _of_model(store: Store, campaign: str, predicted: list[Prediction], order: list[str]) -> OfModel:
+    return OfModel(predicted, order, measured_units(store, [p.response for p in predicted], [campaign]))
+
+
 def _chart(
     store: Store,
     about: About,
     chosen: list[Channel],
-    predicted: list[Prediction],
-    order: list[str],
+    model: OfModel,
     given: Mapping[str, str],
     *,
     named: bool = False,
 ) -> Chart:
     windows = _windows(store, about, chosen, _span(given), given)
-    units = measured_units(store, [p.response for p in predicted], [str(about.row["campaign"])])
-    return test_chart(about, chosen, windows, predicted, order, named=named or _by_name(given), units=units)
+    return test_chart(about, chosen, windows, model, named=named or _by_name(given))
 
 
 def _moving(store: Store, about: About, chosen: list[Channel], given: Mapping[str, str]) -> list[Channel]:
@@ -212,7 +214,7 @@ def _moving(store: Store, about: About, chosen: list[Channel], given: Mapping[st
     strips = [c for c in chosen if not drawn_as_curve(c)]
     if not strips or _by_name(given):
         return chosen
-    whole = test_chart(about, strips, _windows(store, about, strips, None, given), [], [], named=False, units={})
+    whole = test_chart(about, strips, _windows(store, about, strips, None, given), NO_MODEL, named=False)
     there = {p.series.name for p in whole.panels if isinstance(p, Strip)}
     return [c for c in chosen if drawn_as_curve(c) or c.name in there]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,28 +22,33 @@ _MOST_ROWS = 16
 _BODIES = {"spindle": "spindle and headstock", "headstock": "spindle and headstock", "ram": "spindle and headstock"}
 
 
+@dataclass(frozen=True, slots=True)
+class OfModel:
+    """What a model says of a test. order: of its effects, for their colours; units: response -> its unit."""
+
+    predicted: Sequence[Prediction] = ()
+    order: Sequence[str] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+
+
+NO_MODEL = OfModel()
+
+
 def test_chart(
-    about: About,
-    channels: Sequence[Channel],
-    windows: Sequence[Window],
-    predicted: Sequence[Prediction],
-    order: Sequence[str],
-    *,
-    named: bool,
-    units: Mapping[str, str],
+    about: About, channels: Sequence[Channel], windows: Sequence[Window], model: OfModel, *, named: bool
 ) -> Chart:
-    """order: of the effects, for their colours. named: the channels were asked for by name, and are drawn though one
-    never moves in these windows: a zoom must not lose a strip. units: of the responses. x: hours from the test's start,
-    over the whole test; windows may hold a part of it in finer steps."""
+    """named: the channels were asked for by name, and are drawn though one never moves in these windows: a zoom must
+    not lose a strip. x: hours from the test's start, over the whole test; windows may hold a part of it in finer
+    steps."""
     length = (about.row["duration_s"] or 0.0) / _HOUR
     if not length:
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
     values = {name: (w.t_s / _HOUR, y) for w in windows for name, y in w.values.items()}
     known = [c for c in channels if c.name in values]
-    panels: list[Panel | Strip] = [*_of_model(predicted, order, units), *_of_channels(known, values, named)]
+    panels: list[Panel | Strip] = [*_of_model(model), *_of_channels(known, values, named)]
     return Chart(
         f"Test {about.row['test']} over {length:.3g} hours: {counted(len(known), 'channel')}"
-        + (", with the model's prediction and what it leaves over" if predicted else ""),
+        + (", with the model's prediction and what it leaves over" if model.predicted else ""),
         Axis("time", "h", range=(0.0, length)),
         np.empty(0),
         panels,
@@ -57,11 +63,10 @@ def drawn_as_curve(channel: Channel) -> bool:
     return channel.quantity in MEASURED or channel.quantity.startswith("temperature")
 
 
-def _of_model(predicted: Sequence[Prediction], order: Sequence[str], units: Mapping[str, str]) -> list[Panel]:
-    """units: channel -> its unit."""
+def _of_model(model: OfModel) -> list[Panel]:
     panels = []
-    for p in predicted:
-        unit = units.get(p.response, "um")
+    for p in model.predicted:
+        unit = model.units.get(p.response, "um")
         of_errors = difference_unit(unit)
         x = p.t_s / _HOUR
         measured = np.where(p.valid, p.measured, np.nan)
@@ -83,7 +88,7 @@ def _of_model(predicted: Sequence[Prediction], order: Sequence[str], units: Mapp
             ),
         ]
         if p.contributions:
-            styles = effect_styles([*order, *p.contributions])
+            styles = effect_styles([*model.order, *p.contributions])
             panels.append(
                 Panel(
                     f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",

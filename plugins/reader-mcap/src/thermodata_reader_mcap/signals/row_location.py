@@ -28,7 +28,8 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
         # a stream is a topic, or what one sensor sent on it
         sent = ((t, name) for t, one in found.series.items() for name, made in one.streams.items() if made == stream)
         topic, sender = next(sent, (stream, None))
-        number = _message(view, path, source, found, topic, sender, row)
+        asked = _Asked(topic, sender, row)
+        number = _message(view, content(view, path.name, found.summary), found, source, asked)
         if number is None:
             return None
         met = content(view, path.name, found.summary)
@@ -41,12 +42,18 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
         return seen.found
 
 
-def _message(
-    view: memoryview, path: Path, source: Source, found: Plan, topic: str, sender: str | None, row: int
-) -> int | None:
-    """The number of a row's message in its topic, from 0: messages that do not read are no rows. sender: whose rows are
-    counted, None for all."""
-    met = content(view, path.name, found.summary)
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """A row of a topic, from 0. sender: whose rows are counted, None for all."""
+
+    topic: str
+    sender: str | None
+    row: int
+
+
+def _message(view: memoryview, met: Content, found: Plan, source: Source, asked: _Asked) -> int | None:
+    """The number of a row's message in its topic, from 0: messages that do not read are no rows."""
+    topic, sender, row = asked.topic, asked.sender, asked.row
     met.key = lambda channel: channel.topic if channel.topic == topic and wanted_topic(topic, source) else None
     writer = _Counting(met, found, source)
     done = 0
