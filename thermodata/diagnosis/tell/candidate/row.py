@@ -18,6 +18,7 @@ from thermodata.diagnosis.tell.listing.advised import as_added
 from thermodata.diagnosis.tell.listing.errors_told import rmse
 from thermodata.diagnosis.tell.listing.stated import among
 from thermodata.diagnosis.tell.outcome import Outcome
+from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
@@ -31,15 +32,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
     claimed = among(told.member, judgement.claims)
     heads = first or claimed or among(told.member, judgement.refused)
     refining = among(told.member, judgement.refinements)
-    shape = (
-        held.on(held.asked)
-        if held
-        else as_added(scored)
-        if refining
-        else scored.looked.least
-        if scored.looked
-        else None
-    )
+    shape = _on_locked(told, refining=refining)
     return Candidate(
         rank=rank,
         id=scored.candidate.id,
@@ -111,6 +104,16 @@ def _unread(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
 
 def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
     return None if tests is None else len(tests)
+
+
+def _on_locked(told: Told, *, refining: bool) -> Foretold | None:
+    """What the locked tests say where it acts: as they were asked of a claim, of a refinement as it is added, else in
+    the way that says least for it."""
+    if told.held:
+        return told.held.on(told.held.asked)
+    if refining:
+        return as_added(told.listed)
+    return told.listed.looked.least if told.listed.looked else None
 
 
 def _fit(sse: np.ndarray, scored: Scored, spread: float) -> float | None:
