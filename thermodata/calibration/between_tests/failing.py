@@ -50,10 +50,10 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
 
     tests: in the order of the campaign file, which counts where one of them has no absolute clock; else their clocks
     do. A channel needs three others to be compared with. Nothing is said where no later test began with a machine
-    that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike, and not where it is
-    said to start warm), for then a part that stays hot would look the same; nor of what is powered, which looks so from
-    the day on which it is switched on. With clocks a channel is also off whose starts after a rest say so
-    (`starts`).
+    that had levelled out, for then a part that stays hot would look the same. It had after a rest of 4 h; without
+    clocks, where most temperatures are alike and it is not said to start warm. Nothing is said of what is powered
+    either: from the day on which it is switched on it looks so. With clocks a channel is also off whose starts after a
+    rest say so (`starts`).
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)

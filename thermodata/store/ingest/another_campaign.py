@@ -24,10 +24,15 @@ def refuse_another(inventory: Inventory, files: CampaignFiles, path: Path) -> No
     """UsageError where the store holds another campaign with that id, whose tests and logs would go. path: of the
     campaign file.
 
-    It is the same one where it stands at the same place and its machine is no other, where all logs are here that are
-    held, where logs of its own say so, or where the machine is the same and a test that has logs of the same days, or
-    none of them has any now: then it may move, its logs may be exported anew, and its machine and tests may get other
-    names. Elsewhere it is another one by a single test whose logs are all of other days."""
+    A campaign file is of the campaign that is held where one of these is so; its place, its logs and the names of its
+    machine and tests may then be others than they were:
+
+    - it stands at the same place, and its machine is no other;
+    - all logs that are held are here;
+    - logs of its own say so;
+    - its machine is the same, and some test has logs of the same days, or no test has any logs now.
+
+    Elsewhere it is another one as soon as the logs of a single test are all of other days."""
     held = _logs_held(inventory)
     if inventory.campaign is None or not held:
         return

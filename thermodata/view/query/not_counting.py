@@ -26,9 +26,9 @@ _NOT_COUNTING = tuple(f.word for f in Flag if f & INVALID)
 
 
 def values_that_do_not_count(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:
-    """A sentence where a query takes `value` from a long view, or what is left from `residual`, neither it nor its
-    answer's columns say anything of the flag (of `valid`), and the channels, tests and campaigns that it names have
-    samples that do not count."""
+    """A sentence where a query takes samples that do not count as if they did; None elsewhere. It does where it takes
+    `value` from a long view and names no flag, or what is left from `residual` and not `valid`, neither in the query
+    nor in its answer's columns, and what it names (channels, tests, campaigns) has such samples."""
     return _of_samples(con, query, columns) or _of_residuals(con, query, columns)
 
 

@@ -1,9 +1,9 @@
 """Lines above a table that say when something was: what their labels are made of, in the languages of loggers.
 
-A label says that rows began then, that something was recorded then, that a logger was switched on then, which may be
-another start than that of the rows, a bare date or time, or that a file was made then, which may be weeks later.
-A label with any word that is none of these says nothing of the rows: "Calibration date"; but for one that names a
-start, and leaves open of what: it is asked.
+A label says one of these: rows began then; something was recorded then; a logger was switched on then, which may be
+before the rows begin; a date or a time and no more; or a file was made then, which may be weeks later. A label with any
+other word, such as "Calibration date", says nothing of the rows. Where such a one names a start and leaves open of
+what, it is asked.
 """
 
 from __future__ import annotations
