@@ -114,13 +114,7 @@ def find_layout(
     lines = [texts_of(r) for r in above]
     above, settings = labelled_head(above, below, width)
     head = Head(above, below, width, row_of_units, skip, between, where)
-    lacking = None
-    if between is not None and "header_rows" not in said:
-        times = said.get("time") or {}
-        told = not isinstance(times, Mapping) or times.get("column") is not None
-        lacking = refuse_misfit(head, told=told)
-    if between is not None and "names" not in said:
-        refuse_units_misfit(head)
+    lacking = None if between is None else _refuse_misfits(head, said)
     header = _header(head, said)
     repeats = repeats_of(rows[skip:first])
     data = _whole_rows([r for r in below if not repeats(r)], width)
@@ -135,14 +129,7 @@ def find_layout(
     if "header_rows" not in said:
         lost = lines_between(head, header.names, header.units)
     seen = FirstRows(header.names, header.units, data, where)
-    groups, notes = _times(said.get("time"), seen, lines)
-    if groups[0].counted and (others := _other_kinds(below, width)):
-        groups = [replace(g, others=others) for g in groups]
-        notes = [
-            *notes,
-            f"rows of {' or '.join(map(str, sorted(others)))} cells stand among those of {width}: they are "
-            "of another kind, not read, and take no time",
-        ]
+    groups, notes = _beside_other_kinds(*_times(said.get("time"), seen, lines), below, width)
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(header.names[i], seen.column(i), groups[0].seconds, lines) for i in time]
     worded = ", ".join(header.worded.values())
@@ -207,6 +194,31 @@ def _times(declared: Any, seen: FirstRows, lines: Sequence[Sequence[str]]) -> tu
             raise with_start(with_interval(question, lines), seen, lines) from None
     groups, notes = find_groups(answer, seen)
     return groups, [*notes, stated.note(answer["unit"])]
+
+
+def _refuse_misfits(head: Head, said: Mapping[str, Any]) -> str | None:
+    """A note on names that are lacking; refuses a header, or units, that can't be those of the rows."""
+    lacking = None
+    if "header_rows" not in said:
+        times = said.get("time") or {}
+        told = not isinstance(times, Mapping) or times.get("column") is not None
+        lacking = refuse_misfit(head, told=told)
+    if "names" not in said:
+        refuse_units_misfit(head)
+    return lacking
+
+
+def _beside_other_kinds(
+    groups: list[Group], notes: list[str], rows: Sequence[Sequence[Cell]], width: int
+) -> tuple[list[Group], list[str]]:
+    """The same, where rows of another kind stand among those whose number tells their time."""
+    if not groups[0].counted or not (others := _other_kinds(rows, width)):
+        return groups, notes
+    note = (
+        f"rows of {' or '.join(map(str, sorted(others)))} cells stand among those of {width}: they are of another "
+        "kind, not read, and take no time"
+    )
+    return [replace(g, others=others) for g in groups], [*notes, note]
 
 
 def _other_kinds(rows: Sequence[Sequence[Cell]], width: int) -> frozenset[int]:
