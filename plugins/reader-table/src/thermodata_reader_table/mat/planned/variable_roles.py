@@ -101,28 +101,37 @@ def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, i
     lines = lines_of(node)
     if lines is None:
         _cells(plan, scope, path, node, inner)
-    elif len(lines) == 1 and (of := say.unit_of(name, scope.known, lines[0])) is not None:
-        scope.unit_of.setdefault(of, lines[0])
-        scope.properties[name] = lines[0][:500]
     elif len(lines) == 1:
-        if say.names_time_unit(name, lines[0]):
-            scope.time_unit = lines[0]
-        if say.names_names(name) and not say.names_units(name):
-            scope.names.append(_listed(scope, name, lines))
-        if say.names_units(name):
-            scope.units.append(_listed(scope, name, lines))
-        scope.properties[name] = lines[0][:500]
-        _state(plan, path, scope.properties[name])
+        _one_text(plan, scope, name, path, lines[0])
     elif lines:
-        if say.names_units(name) or say.unit_of(name, scope.known) in scope.known:
-            scope.units.append(_listed(scope, name, lines))
-        elif (say.names_time(name) and plan.wanted is None) or plan.wanted in (path, name):
-            scope.times.append(TimeVector(path, len(lines), texts=tuple(lines)))
-        elif say.names_names(name) or say.listed_of(name, scope.known) in scope.known:
-            scope.names.append(_listed(scope, name, lines))
-        else:
-            words = np.array(lines, object)
-            scope.columns.append(Column(path, None, "str", len(lines), partial(_part, words)))
+        _list_of_texts(plan, scope, name, path, lines)
+
+
+def _one_text(plan: Plan, scope: Scope, name: str, path: str, text: str) -> None:
+    """The unit of a column or of the time, a list of one name or unit; in any case a property of the file."""
+    scope.properties[name] = text[:500]
+    if (of := say.unit_of(name, scope.known, text)) is not None:
+        scope.unit_of.setdefault(of, text)
+        return
+    if say.names_time_unit(name, text):
+        scope.time_unit = text
+    if say.names_units(name):
+        scope.units.append(_listed(scope, name, [text]))
+    elif say.names_names(name):
+        scope.names.append(_listed(scope, name, [text]))
+    _state(plan, path, scope.properties[name])
+
+
+def _list_of_texts(plan: Plan, scope: Scope, name: str, path: str, lines: list[str]) -> None:
+    """Units, times or names of columns, else a column of words."""
+    if say.names_units(name) or say.unit_of(name, scope.known) in scope.known:
+        scope.units.append(_listed(scope, name, lines))
+    elif (say.names_time(name) and plan.wanted is None) or plan.wanted in (path, name):
+        scope.times.append(TimeVector(path, len(lines), texts=tuple(lines)))
+    elif say.names_names(name) or say.listed_of(name, scope.known) in scope.known:
+        scope.names.append(_listed(scope, name, lines))
+    else:
+        scope.columns.append(Column(path, None, "str", len(lines), partial(_part, np.array(lines, object))))
 
 
 def _listed(scope: Scope, name: str, lines: list[str]) -> Listed:
