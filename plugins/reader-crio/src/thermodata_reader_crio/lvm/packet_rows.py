@@ -14,6 +14,7 @@ from thermodata.schema.words.sentences import counted
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.lvm.header import Packet
 from thermodata_reader_crio.lvm.recording import comment_name
+from thermodata_reader_crio.lvm.starts import Starts
 from thermodata_reader_crio.lvm.streams import Streams
 from thermodata_reader_crio.lvm.times import Times
 
@@ -29,12 +30,23 @@ class _Cells:
     words: Array | None
 
 
+@dataclass(frozen=True, slots=True)
+class OfFile:
+    """What the packets of a file share. streams: their channels, as all headings name them; starts: when rows began."""
+
+    name: str
+    streams: Streams
+    starts: Starts
+    source: Source
+
+
 class PacketRows:
     """Turns the rows of one packet into blocks, part by part. done: rows so far."""
 
-    def __init__(self, name: str, packet: Packet, streams: Streams, times: Times, grid: Grid, source: Source) -> None:
-        self.name, self.packet, self.streams, self.times, self.grid = name, packet, streams, times, grid
-        self.block_rows = int(source.options.get("block_rows", 0))
+    def __init__(self, file: OfFile, packet: Packet, times: Times, grid: Grid) -> None:
+        self.name, self.packet, self.streams, self.times, self.grid = file.name, packet, file.streams, times, grid
+        self.block_rows = int(file.source.options.get("block_rows", 0))
+        streams = file.streams
         self.done = 0
         # as of this heading: later ones are met while its last rows are parsed
         self._changes = {

@@ -13,18 +13,17 @@ from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
-from thermodata_reader_crio.lvm.packet_rows import PacketRows
+from thermodata_reader_crio.lvm.packet_rows import OfFile, PacketRows
 from thermodata_reader_crio.lvm.recording import streams_of
 from thermodata_reader_crio.lvm.scan import Item, RowPart, scan
-from thermodata_reader_crio.lvm.starts import Starts, starts_of
-from thermodata_reader_crio.lvm.streams import Streams
+from thermodata_reader_crio.lvm.starts import starts_of
 from thermodata_reader_crio.lvm.times import Times
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The rows of every packet, part by part, each with its line; and a loss for what does not read."""
     encoding = sample(path, source.encoding).encoding
-    streams, starts = streams_of(path, encoding), starts_of(path, encoding, source.timezone)
+    file = OfFile(path.name, streams_of(path, encoding), starts_of(path, encoding, source.timezone), source)
     header = Header()
     reading: _Reading | None = None
     waiting: _Parsing | None = None
@@ -45,7 +44,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             elif isinstance(item, Packet) or item is None:
                 if reading is not None:
                     yield from reading.end(last_ns)
-                reading = None if item is None else _Reading(path.name, header, item, streams, starts, source)
+                reading = None if item is None else _Reading(file, header, item)
 
 
 def _and_end(items: Iterator[Item]) -> Iterator[Item | None]:
@@ -69,12 +68,10 @@ class _Parsing:
 class _Reading:
     """The rows of one packet, part by part."""
 
-    def __init__(
-        self, name: str, header: Header, packet: Packet, streams: Streams, starts: Starts, source: Source
-    ) -> None:
-        self.name, self.header, self.packet, self.streams = name, header, packet, streams
-        self.starts, self.source = starts, source
+    def __init__(self, file: OfFile, header: Header, packet: Packet) -> None:
+        self.file, self.header, self.packet = file, header, packet
         self.into: PacketRows | None = None
+        streams = file.streams
         for group in streams.groups(packet):
             # named, and their units taken, in the order of the headings, whether rows follow or not
             streams.units.changed(streams.of(packet, group), packet, group)
@@ -86,21 +83,21 @@ class _Reading:
         if self.into is None:
             if not data.strip():
                 return None
-            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.starts)
+            times = Times(self.header, self.packet, first_rows(data, self.header, self.packet), self.file.starts)
             grid = grid_of(self.header, self.packet, decimal_of(data, self.header, self.packet)[0])
-            self.into = PacketRows(self.name, self.packet, self.streams, times, grid, self.source)
+            self.into = PacketRows(self.file, self.packet, times, grid)
             losses += self.into.left_out()
         if not part.ended:
             data, cut = without_cut_line(data, self.header.separator)
             if cut:
                 line = part.line + data.count(b"\n") + 1
-                losses.append(Loss(f"{self.name} line {line}", reason="the last line has no end: it may be cut"))
+                losses.append(Loss(f"{self.file.name} line {line}", reason="the last line has no end: it may be cut"))
         return _Parsing(self.into, losses, pool.submit(parse, data, part.line, self.into.grid))
 
     def end(self, last_ns: int | None) -> Iterator[Loss]:
         """Whether as many rows came as the heading announced."""
         done = 0 if self.into is None else self.into.done
-        most, where = self.packet.most_samples, f"{self.name} line {self.packet.line}"
+        most, where = self.packet.most_samples, f"{self.file.name} line {self.packet.line}"
         if done < most:
             fraction = (most - done) / most
             yield Loss(where, last_ns, None, fraction, f"{done} rows of {most} that the heading announces")
