@@ -56,10 +56,13 @@ def test_a_block_is_renewed_and_one_that_differs_is_known(ten: Any) -> None:
         ten.with_block(page, "answer 11", "")
 
 
-def test_lines_are_folded_at_spaces_and_ids_of_models_do_not_count(ten: Any) -> None:
+def test_lines_are_folded_as_at_a_terminal_and_ids_of_models_do_not_count(ten: Any) -> None:
     line = " ".join(["lag:T_motor_of_the_axis"] * 9)
-    assert max(map(len, ten.folded(line).splitlines())) <= ten.WIDTH
-    assert ten.folded(line).split() == line.split()
+    told = ten.folded(line)
+    assert max(map(len, told.splitlines())) <= ten.WIDTH
+    assert all(more.startswith("  ") for more in told.splitlines()[1:])
+    assert set(told.split()) <= {"lag:T_motor_of_the_axis", "lag:", "T_motor_of_the_axis"}, "no name is broken"
+    assert "".join(told.split()) == "".join(line.split())
     assert ten.folded("a\n\n  ! b").splitlines() == ["a", "", "  ! b"]
     assert ten.without_ids("add 52a1ae3ec0bf 1") == ten.without_ids("add 014ff139 1")
 

@@ -186,8 +186,7 @@ def _figures(
         note = "" if i else "Point at a strip to read it; click to see its test there."
         targets = [f"test{j}" for j, t in enumerate(data.tests) if data.unit_of(t.response) == unit]
         made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note, several=several)
-    heat = _heat(data)
-    if heat:
+    if heat := _heat(data):
         drawn = heat_charts(heat.courses, data.unit_of(data.diagnosis), heat.direction is not None)
         made.update({f"heat{i}": figure for i, figure in enumerate(drawn)})
     for i, seen in enumerate(data.systems):
