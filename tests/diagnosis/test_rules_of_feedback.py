@@ -46,6 +46,21 @@ def test_a_screw_is_not_asked_of_an_axis_with_a_scale_and_all_else_of_it_is(
     assert {"guideway:T_guide", "lag:T_nut", "lag:v", "lag:v1"} <= found
 
 
+@pytest.mark.parametrize(
+    ("axis", "feedback", "lesser"),
+    [("z", {}, True), ("z", {"z": "scale"}, False), ("z", {"x": "scale"}, True), ("y2", {"y": "scale"}, False)],
+)
+def test_a_guideway_behind_whose_scale_no_screw_acts_may_be_no_screw(
+    axis: str, feedback: dict[str, str], lesser: bool
+) -> None:
+    """Though no sensor reads that screw; where it might act, it is mostly the screw."""
+    guide = ChannelInfo("T_guide", "temperature", "degC", at=f"axis.{axis}.guide")
+    channels = {"dZ": CHANNELS["dZ"], "T_guide": guide}
+    asked = {c.id: c for c in candidates(effects(), channels, (), "dZ", Seen(feedback=feedback))}
+    assert asked["guideway:T_guide"].unread == ((f"axis.{axis}.nut",) if lesser else ())
+    assert asked["guideway:T_guide"].lesser is lesser
+
+
 def test_the_feedback_of_an_axis_is_what_all_tests_declare() -> None:
     said = [{"axes.Z.feedback": "scale", "axes.Y.feedback": second, "tool": "T1"} for second in ("scale", "screw")]
     tests = [replace(a_test(f"t{k}"), conditions=one) for k, one in enumerate(said)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
+from thermodata.diagnosis.candidates.unread import AXIS, RUBS, Part, part_of
 from thermodata.effect.binding import Described
 from thermodata.plugin import Effect
 from thermodata.view.grid.dataset import TestData
@@ -21,7 +22,29 @@ def feedback_of_axes(tests: Iterable[TestData]) -> dict[str, str]:
 
 def is_kept_from_the_tool(effect: Effect, channels: Iterable[Described], feedback: Mapping[str, str]) -> bool:
     """Whether an effect does nothing at the tool, for what closes the loop of its axis. channels: that drive it."""
-    closed_by: str | None = getattr(effect, "closed_by", None)
     axes = {m[1] for c in channels if (m := _AXIS.match((c.at or "").lower()))}
-    # of two motors of one axis, y1 and y2, the axis is declared
-    return closed_by is not None and any(closed_by in (feedback.get(a), feedback.get(a[:1])) for a in axes)
+    return any(_closes(effect, axis, feedback) for axis in axes)
+
+
+def kept_parts(
+    library: Iterable[Effect], channels: Iterable[Described], feedback: Mapping[str, str]
+) -> frozenset[Part]:
+    """The parts of the axes that channels sit at which do nothing at the tool either, whether a sensor reads them or
+    none: no heat may be theirs instead."""
+    heats = {part.heat for c in channels if (part := part_of(c.at)) and part.heat.startswith(AXIS)}
+    return frozenset(
+        Part(heat, part.name)
+        for effect in library
+        for need in effect.needs
+        for place in need.places
+        if (part := part_of(place)) and part.name in RUBS
+        for heat in heats
+        if _closes(effect, heat.removeprefix(AXIS), feedback)
+    )
+
+
+def _closes(effect: Effect, axis: str, feedback: Mapping[str, str]) -> bool:
+    """Whether the loop of an axis is closed by what keeps the effect from the tool. Of two motors of one axis, y1 and
+    y2, the axis is declared."""
+    closed_by: str | None = getattr(effect, "closed_by", None)
+    return closed_by is not None and closed_by in (feedback.get(axis), feedback.get(axis[:1]))

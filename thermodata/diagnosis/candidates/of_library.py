@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.feedback import is_kept_from_the_tool
+from thermodata.diagnosis.candidates.feedback import is_kept_from_the_tool, kept_parts
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.seen import NOTHING, Seen
 from thermodata.diagnosis.candidates.unread import Part, is_holder, is_lesser, is_motion, part_of, parts_of, unread
@@ -164,6 +164,7 @@ def candidates(
     # a temperature that is modelled reads its own part
     if response in channels and channels[response].quantity == "temperature":
         known |= {part for part in [part_of(channels[response].at)] if part}
+    known |= kept_parts(library.values(), usable.values(), seen.feedback)
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     beside = _Beside(library, usable, model, plain, frozenset(known), placed, seen)
     # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
