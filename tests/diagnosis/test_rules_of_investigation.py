@@ -172,7 +172,7 @@ class TestJudged:
         monkeypatch.setattr(
             investigating,
             "Refinement",
-            lambda fitted, problem, noise: lambda s: "kin" if s.candidate.effect.name in refined else None,
+            lambda fitted, problem, noise, twins: lambda s: "kin" if s.candidate.effect.name in refined else None,
         )
         return investigate(Inquiry(fitted, data, fitted_tests(data), effects()), Given(**more))
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
+from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.refines import PART
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, parts_offered
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, parts_offered, sound_twins
 from thermodata.diagnosis.verdict.selection import Member, Selection
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.ranking import Ranked
@@ -72,6 +73,39 @@ def test_what_is_likely_is_asked_of_the_locked_tests_though_the_error_is_at_the_
 ) -> None:
     found = verdict(scored("a", after=0.6, evidence=evidence), floor=1.01)
     assert (found.verdict, names(found.likely)) == ("none", likely)
+
+
+@pytest.mark.parametrize(("evidence", "expected"), [(48.4, "none"), (48.8, "unknown")])
+def test_nobody_says_that_nothing_is_missing_beside_what_is_rather_the_cause_than_not(
+    evidence: float, expected: str
+) -> None:
+    """However near to the floor the error is: half of the cases."""
+    dull = scored("a", after=0.6, evidence=evidence)
+    assert verdict(dull, floor=1.01).verdict == expected
+
+
+@pytest.mark.parametrize(
+    ("other", "expected"),
+    [
+        ({}, True),
+        ({"family": "feed_y"}, False),  # another axis says nothing of it
+        ({"spread": 0.6, "after": 0.55}, False),  # nor what breaks a rule
+        ({"before": 0.0, "after": 0.0, "evidence": 0.0}, False),
+    ],
+)
+def test_a_sound_twin_is_of_the_same_family_and_keeps_the_rules(other: dict[str, Any], expected: bool) -> None:
+    warm = scored("motor", before=1.0, after=0.3, evidence=300.0)
+    twin = scored("screw", **{"channels": ("v",), "before": 1.0, "after": 0.4, "evidence": 200.0, **other})
+    found = sound_twins(selection(warm, first=[warm, twin]), measure(), "um")
+    assert found == {id(warm.columns): [twin] if expected else []}
+
+
+def test_what_the_locked_tests_refute_does_not_say_that_something_is_missing() -> None:
+    same = Foretold(1.0, 1.0, 1.0)
+    one = scored("a", after=0.6, evidence=900.0)
+    told = replace(one, looked=Looked(same, same, 0.01))
+    found = concluded(of_tests(5), selection(one), measure(floor=1.01), (Judged(told, one, None, ()),))
+    assert (found.verdict, probability(told) > 0.8) == ("none", True)
 
 
 def test_what_is_likely_is_no_refinement_and_as_many_as_may_be_claimed_the_likeliest_first() -> None:

@@ -7,7 +7,14 @@ from dataclasses import replace
 import pytest
 
 from thermodata.diagnosis.candidates.of_library import candidates
-from thermodata.diagnosis.claims.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
+from thermodata.diagnosis.claims.probability import (
+    TOLD_APART,
+    at_best,
+    elsewhere,
+    of_either,
+    probability,
+    sharpness_asked,
+)
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
@@ -264,6 +271,25 @@ def test_the_sensor_that_tells_them_apart_is_advised() -> None:
     assert advice in to_find(9, (), channels, one)
     assert advice not in to_find(9, (), {"T_guide": GUIDE}, one)
     assert advice not in to_find(9, (), channels, on_axis(600.0))
+    few = to_find(5, (), channels, one)
+    assert few.startswith(f"{advice}; 5 tests took part"), "it says more than more of the same tests"
+
+
+def test_of_a_screw_without_a_sensor_the_advice_asks_what_closes_the_loop() -> None:
+    told = to_log(on_axis(600.0, "axis.y.nut"), {})
+    assert told is not None
+    assert ": log a temperature there; or, where a linear scale closes the loop of Y, declare that" in told
+    assert "(machine: {axes: {Y: {feedback: scale}}})" in told
+    assert "scale" not in str(to_log(on_axis(600.0, "axis.y.guide"), {})), "a guideway acts behind any"
+
+
+def test_to_be_unsure_of_the_part_is_not_to_be_unsure_of_the_heat() -> None:
+    """What its place and its rank among the parts take from the probability of one is no doubt of both."""
+    one = on_axis(60.0, "axis.z.nut")
+    lesser = replace(one, candidate=replace(one.candidate, lesser=True))
+    alone = probability(on_axis(60.0))
+    assert probability(lesser) < probability(one) < alone
+    assert of_either(one) == of_either(lesser) == alone
 
 
 SENSOR = (

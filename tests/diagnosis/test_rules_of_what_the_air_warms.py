@@ -27,10 +27,16 @@ def share(of: float) -> Float1D:
 
 
 def said(
-    does: Float1D, rests: tuple[float, ...] = (), families: str = "ambient", lacks: int | None = None, **of: Any
+    does: Float1D,
+    rests: tuple[float, ...] = (),
+    families: str = "ambient",
+    lacks: int | None = None,
+    twin: dict[str, Any] | None = None,
+    **of: Any,
 ) -> str | None:
     """rests: how far the temperature moves in tests in which the axis stands; it moves by 1 in two others. lacks: the
-    test in which it is not logged."""
+    test in which it is not logged. twin: what does as much; `of`: the share of it
+    that the air makes."""
     parts = [
         Parts(
             100.0 * WAVE,
@@ -45,9 +51,14 @@ def said(
     if lacks is not None:
         parts[lacks] = replace(parts[lacks], values={"v_Z": parts[lacks].values["v_Z"]}, channels={"v_Z": FEED})
         doing[lacks] = 0.0 * does
-    asked = Refinement(model(*families.split()), problem(*parts), NOISE)
     plain = {"family": "feed_z", "contribution": doing, "after": 0.5, "size": 1.0}
-    return asked(scored(**{**plain, **of}))
+    one = scored(**{**plain, **of})
+    twins = {}
+    if twin is not None:
+        given = {key: value for key, value in twin.items() if key != "of"}
+        does_as_well = len(parts) * [share(twin.get("of", 0.9))]
+        twins = {id(one.columns): [scored(**{**plain, "contribution": does_as_well, **given})]}
+    return Refinement(model(*families.split()), problem(*parts), NOISE, twins)(one)
 
 
 @pytest.mark.parametrize(("of", "expected"), [(0.81, MODE), (0.79, None), (0.0, None)])
@@ -61,6 +72,20 @@ def test_what_is_as_evident_as_one_a_sample_is_a_cause_whatever_it_follows(
     evidence: float, expected: str | None
 ) -> None:
     assert said(share(0.9), evidence=evidence) == expected
+
+
+@pytest.mark.parametrize(
+    ("twin", "expected"),
+    [
+        ({"channels": ("v_Z",), "of_motion": True}, None),
+        ({"channels": ("T_a",), "of": 0.79}, None),  # of another temperature there
+        ({"channels": ("T_a",), "of": 0.81}, MODE),
+    ],
+)
+def test_what_another_of_its_part_does_as_well_that_follows_no_air_is_a_cause(
+    twin: dict[str, Any], expected: str | None
+) -> None:
+    assert said(share(0.9), twin=twin) == expected
 
 
 def test_only_one_temperature_of_a_body_follows_the_air() -> None:

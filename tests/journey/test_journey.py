@@ -39,6 +39,7 @@ CANDIDATE = {
     "claimed",
     "refinement",
     "probability",
+    "probability_with_unread",
     "p_value",
     "rmse_um_before",
     "rmse_um_after",

@@ -49,6 +49,7 @@ BESIDE = {
     "loose.py": ("loose_sensors",),
     "measure.py": ("a_claim", "the_verdict"),
     "bare.py": ("unread_parts",),
+    "feedback.py": ("feedback",),
     "next_test.py": ("what_is_shown", "unread_parts"),
     "opened.py": ("the_locked_tests",),
     "other_axes.py": ("other_axes",),
@@ -284,9 +285,14 @@ MUTANTS = [
     diagnosis(
         "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"
     ),
-    diagnosis(
-        "judge.py", "if left <= measure.floor and not halved and not plain:", "if left < 0:", "'none' is never said"
-    ),
+    diagnosis("feedback.py", "if _closes(effect, heat", "if True or _closes(effect, heat", "no screw may be it"),
+    diagnosis("feedback.py", "if _closes(effect, heat", "if False and _closes(effect, heat", "a kept screw may be it"),
+    diagnosis("judge.py", "if left <= measure.floor and", "if left < 0 and", "'none' is never said"),
+    diagnosis("judge.py", "RATHER = 0.5", "RATHER = 0.6", "'none' beside what is rather missing"),
+    diagnosis("judge.py", "RATHER = 0.5", "RATHER = 0.4", "'none' is not said beside what is rather none"),
+    diagnosis("judge.py", ">= RATHER and not (one.looked", ">= RATHER and (True or one.looked", "no lock is heard"),
+    diagnosis("judge.py", "member.scored.candidate.family and not failed", "True and not failed", "any twin"),
+    diagnosis("judge.py", "family and not failed_rules(twin, measure, unit)", "family", "a twin that breaks rules"),
     diagnosis("judge.py", "in own if blunt(j.scored) is None", "in own", "proxies"),
     diagnosis("judge.py", "for j in own if blunt", "for j in judged if blunt", "a refinement is claimed as a cause"),
     diagnosis("measure.py", "SHARE = 0.25, 0.4", "SHARE = 0.9, 0.4", "much is left and nothing is said to be missing"),
@@ -341,6 +347,8 @@ MUTANTS = [
         "False",
         "what is evident is air, and air is a body",
     ),
+    diagnosis("refinement.py", "None if any(self._air", "None if False and any(self._air", "a motor is air"),
+    diagnosis("refinement.py", "None if any(self._air", "None if True or any(self._air", "no body is air"),
     diagnosis("warm_at_rest.py", "roots = TURNS if own in TURNS else (own,)", "roots = ()", "no part moves"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
     diagnosis("refinement.py", "LIKE = 0.9 ", "LIKE = 0.1 ", "a cause takes the place of a stranger"),

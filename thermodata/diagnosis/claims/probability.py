@@ -55,6 +55,12 @@ def at_best(scored: Scored, samples: int) -> float:
     return _share(_log_odds(scored.evidence / max(samples, 1), FALLS[1], scored.candidate))
 
 
+def of_either(scored: Scored) -> float:
+    """That it is what is missing, or that another part is that it may be as well (`CandidateEffect.unread`)."""
+    of = replace(scored.candidate, unread=(), lesser=False)
+    return probability(replace(scored, candidate=of))
+
+
 def _on_open_tests(scored: Scored, *, this_part: bool = False) -> float:
     """Its log odds before the lock is opened. this_part: that it is this part, not only this cause."""
     own = _log_odds(sharpness(scored), scored.drop, scored.candidate, beaten=scored.beaten, this_part=this_part)

@@ -7,7 +7,7 @@ time constants.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -58,10 +58,17 @@ MOVES, QUARTER = 0.6, 0.25
 
 
 class Refinement:
-    """Asked for each member of a selection, in the noise beside all members."""
+    """Asked for each member of a selection, in the noise beside all members. twins: by the identity of a member's
+    columns the sound ones of its family that the tests can't tell from it."""
 
-    def __init__(self, fitted: FittedResponse, problem: Problem, noise: Noise) -> None:
-        self.fitted, self.problem, self.noise = fitted, problem, noise
+    def __init__(
+        self,
+        fitted: FittedResponse,
+        problem: Problem,
+        noise: Noise,
+        twins: Mapping[int, Sequence[Scored]] | None = None,
+    ) -> None:
+        self.fitted, self.problem, self.noise, self.twins = fitted, problem, noise, twins or {}
         self.owners = tuple(np.array(o, dtype=np.int64) for o in owners(fitted))
         self.tests = list({b.test.key: b.test for b in problem.blocks}.values())
         self._worth: dict[int, float] = {}
@@ -175,10 +182,16 @@ class Refinement:
 
     def _air_that_warms_it(self, scored: Scored) -> str | None:
         """The effect of the air that a single temperature follows. The air warms all that stands in it, each body in
-        its own time, so that one of them has just the time that the effect of the air lacks."""
-        channels = scored.candidate.channels
+        its own time, so that one of them has just the time that the effect of the air lacks; but none where a motion of
+        its part, or another temperature there, does as much and follows no air."""
         if sharpness(scored) >= EVIDENT or scored.candidate.family == AIR:
             return None
+        air = self._air_followed(scored)
+        twins = self.twins.get(id(scored.columns), ()) if air is not None else ()
+        return None if any(self._air_followed(twin) is None for twin in twins) else air
+
+    def _air_followed(self, scored: Scored) -> str | None:
+        channels = scored.candidate.channels
         if len(channels) != 1 or not self._is_warm(channels[0]):
             return None
         for number, term in enumerate(self.fitted.terms):

@@ -34,7 +34,7 @@ from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.verdict.asked import of_library
 from thermodata.diagnosis.verdict.faults import faults_of_logs, that_nothing_missing_makes
 from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, sound_twins
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weigh.beside import beside
@@ -210,7 +210,7 @@ def _judged(
         found = select(
             problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among, good=good
         )
-        refines = Refinement(fitted, problem, found.noise)
+        refines = Refinement(fitted, problem, found.noise, sound_twins(found, measure, problem.unit))
         told = judge(problem, found, measure, refines)
         if witness is None:
             return found, told, bool(told.claims)

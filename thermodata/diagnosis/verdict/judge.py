@@ -25,6 +25,7 @@ OUTWEIGHED = ("fall", "gain", "others", "worth")
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 MOST_CLAIMS = 3
+RATHER = 0.5  # so probable, and it is rather the cause than not
 ALIKE = 0.9  # cosine of contributions that can't be told apart,
 APART = 2.0  # unless the tests surely speak for one, and the other leaves this many times its error;
 FAR = 4.0  # no twin leaves, however few the tests that say so: of three nothing is sure;
@@ -123,7 +124,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
     # what a known effect takes for its own leaves no error, and is plain all the same
     plain = left > measure.noises and any(is_plain(s) for s in selection.dropped)
-    if left <= measure.floor and not halved and not plain:
+    if left <= measure.floor and not halved and not plain and not any(map(_is_rather_missing, own)):
         why = (
             f"the error on left-out tests, {short(left)} {problem.unit}, is at the floor of "
             f"{short(measure.floor)} {problem.unit} (noise, and {in_percent(FLOOR_SHARE)} of the response)"
@@ -145,6 +146,12 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
         f"logged may be named for them{because}"
     )
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
+
+
+def _is_rather_missing(judged: Judged) -> bool:
+    """Whether it is rather the cause than not: then nobody says that nothing is missing, however little is left."""
+    one = judged.scored
+    return probability(one) >= RATHER and not (one.looked and one.looked.refuted)
 
 
 def parts_offered(found: Judgement, conclude: Callable[[tuple[Judged, ...]], Judgement]) -> Judgement:
@@ -254,6 +261,19 @@ def causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
     """The candidates that the data can't tell from the chosen one."""
     return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
+
+
+def sound_twins(selection: Selection, measure: Measure, unit: str) -> dict[int, list[Scored]]:
+    """Of each member, by the identity of its columns, those of its family that the tests can't tell from it, and that
+    keep every rule but the probability's."""
+    return {
+        id(member.scored.columns): [
+            twin
+            for twin in equivalents(member.scored, member.beside)
+            if twin.candidate.family == member.scored.candidate.family and not failed_rules(twin, measure, unit)
+        ]
+        for member in selection.members
+    }
 
 
 def _alike(one: Scored, other: Scored) -> bool:

@@ -43,6 +43,7 @@ FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
 FAR = 2.0
 """An error on locked tests of so many times that on left-out ones says that these lack something."""
+_LIKELY, _MORE = 0.5, 0.05  # that it is one of two parts is told where it is likely, and says more than of the one
 
 
 def probability(share: float | None) -> str:
@@ -225,7 +226,9 @@ def _with_probability(one: Candidate) -> str:
     """A twin that is named beside it counts as right in what is known of such probabilities."""
     twins = not_told_from(one)
     of = " (that it is one of these)" if twins else ""
-    sure = "" if one.probability is None else f"probability {probability(one.probability)}{of}"
+    plain = f"probability {probability(one.probability or 0.0)}"
+    told = plain if twins or one.claimed else _how_likely(one)
+    sure = "" if one.probability is None else f"{told}{of}"
     return ", ".join(filter(None, [_or_elsewhere(one), sure, twins]))
 
 
@@ -258,9 +261,19 @@ def _unclaimed(found: Diagnosis) -> str:
     if first is None:
         return f"{missing}nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
-    likeliest = f"the likeliest that was logged is {_or_elsewhere(first)}, probability {probability(share)}"
+    likeliest = f"the likeliest that was logged is {_or_elsewhere(first)}, {_how_likely(first)}"
     none = f"{missing}the evidence{asked} suffices to name no cause; {likeliest}{stopped(first)}"
     return "; ".join(filter(None, [none, asks_locked(first, found), better_with(found, first)]))
+
+
+def _how_likely(one: Candidate) -> str:
+    """'probability 18 %', or where another part may be it 'probability 18 %, and 78 % that it is it or heat at
+    axis.z.nut': to be unsure of the part is not to be unsure of the heat that both share."""
+    own, either = one.probability or 0.0, one.probability_with_unread
+    sure = f"probability {probability(own)}"
+    if not one.unread or either is None or either < _LIKELY or either - own < _MORE:
+        return sure
+    return f"{sure}, and {probability(either)} that it is it or {other_heat(one)}"
 
 
 def _far_on_locked(found: Diagnosis, locked: float | None) -> str:

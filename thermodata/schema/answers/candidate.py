@@ -90,6 +90,7 @@ class Candidate(Result):
         missing cause
     probability: posterior probability that this cause is missing, given the data; of claims, of the first cause and of
         causes that keep all other rules, null for all else
+    probability_with_unread: that it is this cause or heat at one of the places of `unread`; null where there are none
     p_value: share of responses in which nothing is missing on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
@@ -138,6 +139,7 @@ class Candidate(Result):
     claimed: bool
     refinement: bool = False
     probability: float | None = None
+    probability_with_unread: float | None = None
     p_value: float | None
     rmse_um_before: float | None
     rmse_um_after: float | None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from thermodata.diagnosis.candidates.unread import reads
+from thermodata.diagnosis.candidates.unread import AXIS, GREATER, part_of, reads
 from thermodata.diagnosis.claims.probability import elsewhere
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.places import heat_at
@@ -26,7 +26,19 @@ def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
     if bare == [FIXTURE]:
         return f"to tell {one.candidate.id} from {heat_at(bare, ' and ')}: {_ON_FIXTURE}"
     more = f", and {_ON_FIXTURE}" if FIXTURE in bare else ""
+    more += _or_by_its_scale(bare)
     return f"to tell {one.candidate.id} from {heat_at(bare, ' and ')}: log a temperature there{more}"
+
+
+def _or_by_its_scale(bare: list[str]) -> str:
+    """Of a screw that nobody reads: who knows what closes the loop of its axis may need no sensor."""
+    axes = [part.heat.removeprefix(AXIS).upper() for place in bare if (part := part_of(place)) and part.name == GREATER]
+    if not axes:
+        return ""
+    return (
+        f"; or, where a linear scale closes the loop of {axes[0]}, declare that (machine: {{axes: {{{axes[0]}: "
+        "{feedback: scale}}}), for behind it no screw moves the tool"
+    )
 
 
 def with_fixture(said: str | None, head: Scored | None, channels: Mapping[str, ChannelInfo]) -> str | None:

@@ -207,11 +207,12 @@ def to_find(
             f"no test took part, for none has {MIN_ROWS} samples at the model's step: longer tests, or a shorter step "
             "in the model"
         )
-    if tests < ENOUGH_TESTS:
-        return _more_tests(tests, sources)
-    took_part = f"{counted(tests, 'test')} took part, so more of the same will not tell"
     gives = first is not None and first.drop >= WORTH_A_TEST
-    if first is not None and gives and (log := to_log(first, channels)) is not None:
+    log = to_log(first, channels) if first is not None and gives else None
+    if tests < ENOUGH_TESTS:
+        return "; ".join(filter(None, [log, _more_tests(tests, sources)]))
+    took_part = f"{counted(tests, 'test')} took part, so more of the same will not tell"
+    if log is not None:
         return f"{took_part}; {log}"
     logged = _by_what_is_logged(first, channels, sources) if first is not None and gives else ""
     if not logged and spots and spots[0].after_warm_start:

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import motors_of, reads
-from thermodata.diagnosis.claims.probability import elsewhere, probability
+from thermodata.diagnosis.claims.probability import elsewhere, of_either, probability
 from thermodata.diagnosis.tell.candidate import ladder
 from thermodata.diagnosis.tell.candidate.of_claim import heats_its_motor
 from thermodata.diagnosis.tell.candidate.of_locked import stands_for
@@ -33,6 +33,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
     heads = first or claimed or among(told.member, judgement.refused)
     refining = among(told.member, judgement.refinements)
     shape = _on_locked(told, refining=refining)
+    unread = _unread(told, outcome, data) if heads or told.stated else []
     return Candidate(
         rank=rank,
         id=scored.candidate.id,
@@ -45,6 +46,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         refinement=refining,
         # measured for what is sound; nothing is known of the share of the others
         probability=probability(scored) if told.stated else None,
+        probability_with_unread=of_either(scored) if told.stated and unread else None,
         # chance was asked beside effects that may act otherwise
         p_value=None if one.as_modelled else p_value(one.evidence, measure.chance),
         rmse_um_before=rmse(errors.sse_before, errors),
@@ -64,7 +66,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         parameters=held.parameters.get(scored.candidate.id, {}) if held else {},
         beside=[] if told.of_model else list(told.others),
         equivalent=[t.id for t in told.twins],
-        unread=_unread(told, outcome, data) if heads or told.stated else [],
+        unread=unread,
         also_on=dict(scored.also_on),
         why=why(told, outcome),
         evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,

@@ -20,7 +20,7 @@ STEPS: dict[int, str] = {
     2: "-- the same, and a campaign may leave out a quantity that its unit says; answers hold errors of whole models",
     3: "-- the same: an answer says how probable it is that nothing logged reads what is missing",
     4: "-- the same: what the model as it is fitted leaves on locked tests; why claims stand; tests lost or not asked",
-    5: "-- the same: how many tests are locked",
+    5: "-- the same: how many tests are locked; how sure the heat of two parts is",
 }
 
 
