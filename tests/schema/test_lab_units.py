@@ -54,7 +54,8 @@ _EXACT: list[tuple[str, str, float]] = [
     ("cfm", "l/min", 28.316846592),
     *((u, "um", 25.4) for u in ("mil", "mils", "thou")),
     *((u, "um", 1000.0) for u in ("㎜", "ｍｍ")),
-    *((u, "um", 1.0) for u in ("㎛", "μ", "µ", "mkm", "Mikron", "μｍ")),
+    *((u, "um", 0.0254) for u in ('µ"', 'u"', "μ″", "µ”", "µ''", "µ′′", "µin.", "u in", "micro-inch", "microinches")),
+    *((u, "um", 1.0) for u in ("㎛", "μ", "µ", "mkm", "Mikron", "μｍ", "µm\u200b", "\ufeffµm")),
     *((u, "bar", 0.980665) for u in ("kgf/cm2", "kgf/cm²", "㎏f/㎠", "kg/cm2", "kp/cm²", "at")),
     *((u, "bar", 10.0) for u in ("MPa", "㎫", "N/mm²", "N/mm2")),
     *((u, "bar", 0.01) for u in ("kPa", "㎪", "KPa")),
@@ -62,6 +63,7 @@ _EXACT: list[tuple[str, str, float]] = [
     ("Torr", "bar", 101325 / 760 / 1e5),
     *((u, "N m", 1.3558179483314) for u in ("ft-lb", "lb-ft", "lbf·ft", "ft.lb", "lbf ft")),
     ("in-lb", "N m", 0.1129848290276),
+    *((u, "N m", 1.0) for u in ("N-m", "N−m", "N·m")),
     *((u, "N m", 9.80665) for u in ("kgf·m", "kgfm", "kgf.m")),
     *((u, "degC", 1.0) for u in ("ºC", "℃", "°Ｃ", "oC", "deg_C", "Grad C", "°Cel")),
     *((u, "degC", 0.1) for u in ("°C/10", "0.1 °C", "1/10 °C", "x0.1 degC", "×0,1 °C", "0.1ºC", "℃/10")),
@@ -72,6 +74,9 @@ _EXACT: list[tuple[str, str, float]] = [
     ("gon", "deg", 0.9),
     ("㏀", "Ohm", 1000.0),
     ("ipm", "m/min", 0.0254),
+    *((u, "m/min", 60.0) for u in ("m∕s", "m⁄s", "m÷s", "m／s")),
+    *((u, "rpm", 1.0) for u in ("1⁄min", "1∕min", "min–1")),
+    *((u, "K", 1.0) for u in ("ΔK", "∆K", "Δ°C", "∆°C", "∆C")),
     ("W/㎡", "W/m2", 1.0),
 ]
 
@@ -123,3 +128,48 @@ def test_words_in_round_brackets_and_addresses_are_no_units(header: str) -> None
 def test_what_holds_a_sign_of_a_unit_is_one_that_is_not_known(unit: str) -> None:
     assert split_unit(f"Kanal 7 [{unit}]") == ("Kanal 7", unit)
     assert not is_unit(unit)
+
+
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "?m",
+        "\ufffdm",
+        "¦m",
+        "˙m",
+        "m?",
+        'mm"',
+        'm"',
+        "mm'",
+        "µm;",
+        "$m",
+        "#m",
+        "h:min",
+        "m%",
+        "µ%",
+        "%m",
+        "rpm%",
+        "m√",
+        "''",
+    ],
+)
+def test_a_unit_with_a_sign_that_no_unit_has_is_none(unit: str) -> None:
+    assert not is_unit(unit)
+    assert quantities_of(unit) == ()
+    for target in ("um", "mm", "rpm", "%", "s"):
+        with pytest.raises(UsageError, match="does not convert"):
+            linear_conversion(unit, target)
+
+
+@pytest.mark.parametrize("unit", ["W/(m²·K)", "W/m²·K", "µm/(m·K)", "K⁻¹", "%/K", "‰", "mV/V", "Pa·s", "m^3/h", "mm."])
+def test_strokes_dots_powers_and_brackets_are_signs_of_units(unit: str) -> None:
+    assert is_unit(unit)
+
+
+def test_a_difference_of_temperatures_is_no_temperature() -> None:
+    assert quantities_of("∆K") == quantities_of("Δ°C") == ("temperature_difference",)
+
+
+@pytest.mark.parametrize("unit", ["<mm>", "{mm}", "'mm'", "“mm”", "[mm]", " mm "])
+def test_what_stands_around_a_unit_is_no_part_of_it(unit: str) -> None:
+    assert linear_conversion(unit, "um") == (1000.0, 0.0)

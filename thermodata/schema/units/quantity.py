@@ -14,7 +14,8 @@ from typing import Any, Literal, get_args
 from thermodata.errors import UsageError, nearest
 from thermodata.schema.units.prefixes import usual
 from thermodata.schema.units.scale import counted_unit, scaled_unit
-from thermodata.schema.units.spelling import UNIT_SPELLING, bare_unit, plain_letters, spelled
+from thermodata.schema.units.signs import bare_unit, may_be_unit, plain_signs, unwrapped
+from thermodata.schema.units.spelling import UNIT_SPELLING, spelled
 from thermodata.schema.units.time_of_parts import time_of_parts
 
 Quantity = Literal[
@@ -119,11 +120,11 @@ def normal_unit(text: str) -> str:
     known = spelled(text)
     if known is not None:
         return _powers(known)
-    if torque := re.fullmatch(r"(k|m|M|c|d|da|u|μ)?N[·.*]?(m|mm|cm)", bare):
+    if torque := re.fullmatch(r"(k|m|M|c|d|da|u|μ)?N[-·.*]?(m|mm|cm)", bare):
         return f"{torque[1] or ''}N*{torque[2]}"
     if resistance := re.fullmatch(r"([kMmGuμ]?)(?:[Oo]hms?|OHM|Ω|\u2126)", bare):
         return f"{resistance[1]}ohm"
-    return _powers(plain_letters(text).replace("º", "°").strip())
+    return _powers(unwrapped(plain_signs(text).strip()))
 
 
 def _powers(unit: str) -> str:
@@ -141,7 +142,10 @@ def _registry() -> Any:
 
 
 def _read(unit: str) -> Any:
-    """Pint's unit; ValueError where it takes a lab's word for a prefix and a unit that nobody writes."""
+    """Pint's unit; ValueError where it leaves signs out, or takes a lab's word for a prefix and a unit that nobody
+    writes."""
+    if not may_be_unit(unit):
+        raise ValueError("a sign that no unit has")
     registry = _registry()
     read = registry.parse_units(unit)
     if not usual(registry, read._units):

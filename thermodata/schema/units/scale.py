@@ -7,7 +7,7 @@ import math
 import re
 from functools import lru_cache
 
-from thermodata.schema.units.spelling import plain_letters
+from thermodata.schema.units.signs import plain_letters
 
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 # 1000 and 10 alone only before a stroke: 'dX [100 um]' and 'U [10 V]' may be ranges

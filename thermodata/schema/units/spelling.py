@@ -7,10 +7,10 @@ this table comes first. Keys are casefolded, with blanks removed; a unit that ca
 from __future__ import annotations
 
 import re
-import unicodedata
 from functools import lru_cache
 
 from thermodata.schema.units.in_words import in_words
+from thermodata.schema.units.signs import bare_unit
 
 UNIT_SPELLING: dict[str, str] = {
     "1/min": "rpm",
@@ -91,6 +91,10 @@ UNIT_SPELLING: dict[str, str] = {
     "インチ": "inch",
     "인치": "inch",
     "kelvins": "K",
+    "δk": "delta_degC",
+    "δ°c": "delta_degC",
+    "δc": "delta_degC",
+    "δ°f": "delta_degF",
     "watts": "W",
     "watt": "W",
     "amperes": "A",
@@ -209,10 +213,7 @@ _FOOT_POUND = re.compile(
     r"(?P<length>ft|in)[-.·*]?lbf?|lbf?[-.·*]?(?P<behind>ft|in)|(?P<kilo>kgf|kp)[.·*]?(?P<metric>m|cm)", re.IGNORECASE
 )
 _GRAD = re.compile(r"(?<![^\W\d_])grad(?![^\W\d_])", re.IGNORECASE)
-# full-width letters, and signs that hold a whole unit (㎜ ㎛ ㎾ ℓ): what keyboards of East Asia write
-_WIDE = re.compile("[\uff01-\uff5e\u3351\u3371-\u33df\u2113\u2103\u2109]")
-_LITRE = "\u3351"
-_ALIKE = str.maketrans({"º": "°", "˚": "°", "µ": "μ", "−": "-", "∙": "·", "⋅": "·", "×": "*"})
+_MICRO_INCH = re.compile(r"(?:u|μ|mi[ck]ro)-?(?:in(?:ch(?:es)?)?\.?|[\"″”]|''|′′)", re.IGNORECASE)
 
 
 # of humidity: no other share is called so ('%H' is Almemo's)
@@ -222,19 +223,6 @@ _HUMID = frozenset({"%rh", "rh%", "rh", "%r.h.", "%rf", "%r.f.", "%h"})
 def is_of_humidity(text: str) -> bool:
     """Whether a unit says of what it is a share: '%rF', '% r.H.', '%H'."""
     return bare_unit(text).casefold() in _HUMID
-
-
-@lru_cache(maxsize=4096)
-def plain_letters(text: str) -> str:
-    """A unit without full-width letters and signs that hold a whole unit: '㎏f/㎠' -> 'kgf/cm2', 'ｒｐｍ' -> 'rpm'."""
-    return _WIDE.sub(lambda m: "l" if m[0] == _LITRE else unicodedata.normalize("NFKC", m[0]), text)
-
-
-def bare_unit(text: str) -> str:
-    """A unit without blanks, without brackets around it and in plain letters: '[deg C]' -> 'degC'."""
-    bare = re.sub(r"\s+", "", plain_letters(text)).translate(_ALIKE)
-    enclosed = re.fullmatch(r"[\[(]*([^\[\]()]*)[\])]*", bare)
-    return enclosed[1] if enclosed else bare
 
 
 # of feeds and flows, whose minute is one of another language: 'mm/dk' in Turkish, 'l/perc' in Hungarian
@@ -250,6 +238,8 @@ def spelled(text: str) -> str | None:
         return found
     if words := in_words(bare):
         return words
+    if _MICRO_INCH.fullmatch(bare):
+        return "microinch"
     if turns := _TURNS_PER.fullmatch(bare):
         return f"{'kilo' if turns['kilo'] else ''}turn/{_time(turns['time'])}"
     if turns := _PER_TIME.fullmatch(bare) or _PER_TIME_RAISED.fullmatch(bare):

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from thermodata.schema.units.scale import scaled_unit
-from thermodata.schema.units.spelling import bare_unit, plain_letters, spelled
+from thermodata.schema.units.signs import bare_unit, plain_letters
+from thermodata.schema.units.spelling import spelled
 from thermodata.schema.words.numbered import numbered
 
 _BASE = (

@@ -8,7 +8,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.text.names.header import split_unit
 from thermodata.schema.units.quantity import delta_factor, is_unit, linear_conversion, normal_unit
-from thermodata.schema.units.spelling import bare_unit
+from thermodata.schema.units.signs import bare_unit
 
 # After a separator: unmistakable ones only.
 AT_END = re.compile(
