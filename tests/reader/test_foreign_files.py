@@ -258,3 +258,12 @@ def test_json_with_paths_of_a_control_is_no_trace(tmp_path: Path) -> None:
     (tmp_path / "amw.json").write_text(f'{{"Header": {{"Version": "3"}},\n"Signals": [{signals}]}}\n')
     said = explain(tmp_path / "amw.json")
     assert (said.kind, said.claims) == ("JSON: export it as CSV", {})
+
+
+def test_a_universal_file_with_binary_sets_is_named(tmp_path: Path) -> None:
+    head = b"    -1\n    58b     1     2          11        2880     0     0           0           0\n"
+    (tmp_path / "n3000.uff").write_bytes(head + b"dZ\n" * 11 + np.arange(360.0).tobytes() + b"\n    -1\n")
+    said = explain(tmp_path / "n3000.uff")
+    assert said.kind.startswith("a universal file (UFF 58b)")
+    assert "pyuff.UFF('n3000.uff')" in said.kind
+    assert said.advice is None

@@ -40,6 +40,14 @@ MYSQL = "".join(f"{'*' * 27} {i}. row {'*' * 27}\n   ts: 2026-03-10 08:00:0{i}\n
 PSQL = "".join(
     f"-[ RECORD {i} ]----------------\nts    | 2026-03-10 08:00:0{i}+00\nT_bed | 21.1\n" for i in range(1, 9)
 )
+UFF_HEAD = "".join(f"{line:<80}\n" for line in ("dZ", "NONE", "04-May-26 08:00:00", "NONE", "NONE"))
+UFF = (
+    "    -1\n    58\n" + UFF_HEAD + "    1         0    1         0 dZ                 1   3 NONE               0   0\n"
+)
+UFF += "".join(f"  1.{i}0000e+00  2.10000e+01  3.0{i}000e+00\n" for i in range(9)) + "    -1\n"
+UNV = (
+    "    -1\n   164\n         1                  SI         2\n" + "  1.00000e+00  1.00000e+00\n" * 9 + "    -1\n" + UFF
+)
 
 
 @pytest.mark.parametrize(
@@ -51,6 +59,8 @@ PSQL = "".join(
         (CAN, "CAN bus", "DBC"),
         (CANDUMP, "CAN bus", "DBC"),
         (RRD, "rrdtool", "sed"),
+        (UFF, "universal file", "pyuff"),
+        (UNV, "universal file", "pyuff"),
         (MYSQL, "rows of a database", "mysql --batch"),
         (PSQL, "rows of a database", "psql --csv"),
         (LINES, "line protocol", "CSV"),
@@ -108,6 +118,8 @@ def test_a_line_of_quotes_has_one_way_to_be_read() -> None:
         # a table, one of whose columns is a block of the program
         "time;T1;block\n" + "".join(f"2026-03-02 08:0{i}:00;2{i}.5;G1 X=10{i} F=200\n" for i in range(9)),
         "".join(f"{i},R1=5 R2={i},2{i}.5\n" for i in range(9)),
+        "-1\n58\n57\n" + "".join(f"{i}\n" for i in range(9)),  # a column
+        "-1 58 21.5\n" * 9,
         'time;note\n08:00;{"a": 1}\n08:01;\n',
     ],
 )

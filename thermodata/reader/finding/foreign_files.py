@@ -11,6 +11,7 @@ from pathlib import PurePath
 from thermodata.plugin import Head
 from thermodata.reader.finding.array_files import BY_HDF5, BY_NPZ, BY_XARRAY
 from thermodata.reader.text import decode_head
+from thermodata.reader.text.file.foreign_texts import BY_PYUFF
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
 _HDF5 = b"\x89HDF\r\n"
@@ -71,6 +72,7 @@ _KINDS = (
         "a document of Word",
         "save a table in it as XLSX or CSV",
     ),
+    _Kind(rb"\s{0,9}-1\s+58b\s", "a universal file (UFF 58b) with binary sets", BY_PYUFF.replace("FILE", "{name}")),
     _Kind(rb"\|CF,", "FAMOS of imc", "export it from imc FAMOS or imc STUDIO as CSV or TDMS"),
     _Kind(
         rb"(?:\xef\xbb\xbf)?<\?xml[^>]*>\s*<usi:tdm",

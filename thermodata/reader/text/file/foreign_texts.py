@@ -21,6 +21,14 @@ _OF_CAN = re.compile(
     r"(?:\(\d+\.\d+\)\s+)?v?s?l?can\d+\s+[0-9A-Fa-f]{3,8}(?:##?[0-9A-FaRr.]*|\s+\[\d+\](?:\s+[0-9A-F]{2})*)(?: .*)?"
 )
 _OF_RRD = re.compile(r"\d{9,10}:(?:\s+(?:[+-]?\d\.\d+e[+-]\d+|-?nan))+", re.IGNORECASE)
+# sets of a universal file, as programs of modal analysis write them: a head, units, nodes, functions of time
+_SET_OF_UFF = re.compile(r"(?:15|18|55|58b?|82|151|164|1858|2411|2412|2414|2420|2429|2467)(?:\s.*)?")
+BY_PYUFF = (
+    "export it as CSV from the program that wrote it, or make one with the library pyuff, and declare its start: "
+    "python -c \"import pyuff, pandas as p; u = pyuff.UFF('FILE'); s = [d for i in range(u.get_n_sets()) if "
+    "(d := u.read_sets(i))['type'] == 58]; p.concat([p.Series(d['data'], d['x'], name=d['id1'] + ' [' + "
+    "d['ordinate_axis_units_lab'] + ']') for d in s], axis=1).to_csv('uff.csv', index_label='time [s]')\""
+)
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
 _FEWEST = 2
 
@@ -110,6 +118,12 @@ def _is_dump_of_rrd(lines: Sequence[str]) -> bool:
     return len(points) >= _FEWEST and all(map(_OF_RRD.fullmatch, points))
 
 
+def _is_universal_file(lines: Sequence[str]) -> bool:
+    """Whether it is a file of sets between lines of -1, each with its number; a column of numbers is none."""
+    told = len(lines) > _FEWEST and lines[0] == "-1" and _SET_OF_UFF.fullmatch(lines[1]) is not None
+    return told and re.fullmatch(r"[+-]?\d+(?:[.,]\d+)?", lines[2]) is None
+
+
 def _is_rows_apart(lines: Sequence[str]) -> bool:
     """Whether a client of a database printed each row as a list of its columns: MySQL's \\G, PostgreSQL's \\x."""
     return re.match(r"\*{10,} 1\. row \*{10,}|-\[ RECORD 1 \]-", lines[0]) is not None
@@ -135,6 +149,11 @@ _KNOWN = (
         _is_dump_of_rrd,
         "what rrdtool fetch prints",
         "make a CSV of it: sed -E '/^ *$/d; 1s/^ */time,/; s/^([0-9]+): */\\1,/; s/ +/,/g' FILE > rrd.csv",
+    ),
+    (
+        _is_universal_file,
+        "a universal file of modal analysis (UFF, UNV), which has a set of its own for each signal",
+        BY_PYUFF,
     ),
     (
         _is_rows_apart,
