@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import time
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Source
+from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.times.since import since
-from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, to_ns, with_step
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, found_epoch, to_ns, with_step
 from thermodata.reader.times.zone import NAT
 
 T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
@@ -64,3 +69,20 @@ def test_a_date_that_times_count_from_has_a_fraction_of_a_second() -> None:
     found = since("ms since 2026-03-01 08:00:00,25 UTC")
     assert found is not None
     assert found[1].unit("ms") == "ms since 2026-03-01t08:00:00.25z"
+
+
+def test_seconds_since_1904_are_of_no_day_to_come() -> None:
+    now = time.time() - EPOCHS["labview"].zero_s
+    assert found_epoch(np.array([now - 600.0, now])) == "labview"
+    assert found_epoch(np.array([now, now + 7 * 86400])) is None
+
+
+def test_seconds_that_may_count_from_1900_are_asked(tmp_path: Path) -> None:
+    now = round(time.time()) - EPOCHS["ntp"].zero_s
+    log = tmp_path / "log.csv"
+    log.write_text("timestamp;T [degC]\n" + "".join(f"{now + 30 * i - 9000};21.{i}\n" for i in range(9)))
+    with pytest.raises(QuestionError, match="that count from more than") as asked:
+        open_table(log, Source())
+    assert "'s since 1900-01-01 UTC'" in (asked.value.ask or "")
+    opened = open_table(log, Source(table={"time": {"column": 1, "unit": "ntp"}}))
+    assert opened is not None

@@ -5,6 +5,7 @@ The one list of units of time, for readers of text and of arrays alike.
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from typing import Any
 
@@ -147,6 +148,7 @@ _ALSO = {
 }
 _WITHOUT_STEP = ("epoch", "unix time")
 _LOGGED_NS = (978_307_200 * 10**9, 4_102_444_800 * 10**9)  # 2001 to 2100
+_OF_CLOCKS_S = 2 * _DAY  # by which a logger's clock may be ahead, its zone in it
 REACH_S = 9e9  # beyond which nanoseconds in int64 end
 
 
@@ -241,7 +243,8 @@ def _ns_of_years(values: Array) -> Int1D:
 
 def found_epoch(values: Array) -> str | None:
     """Which count from a date numbers without a unit are, where their size leaves no other sense: MATLAB's datenum
-    (from 1862 to 2135), Unix time, LabVIEW's seconds since 1904, Windows' FILETIME, .NET's ticks (2000 to 2035 all)."""
+    (from 1862 to 2135), Unix time, Windows' FILETIME, .NET's ticks (2000 to 2035 all), LabVIEW's seconds since 1904
+    until now: what they would date later may as well count from 1900, as NTP does."""
     full = values.astype(np.float64)
     full = full[np.isfinite(full)]
     if not full.size:
@@ -250,7 +253,7 @@ def found_epoch(values: Array) -> str | None:
     for unit, first, last in (
         ("datenum", 680_000, 780_000),
         ("unix", 9.4e8, 2.1e9),
-        ("labview", 3.0e9, 4.2e9),
+        ("labview", 3.0e9, time.time() - EPOCHS["labview"].zero_s + _OF_CLOCKS_S),
         ("unix_ms", 9.4e11, 2.1e12),
         ("unix_us", 9.4e14, 2.1e15),
         ("filetime", 1.259e17, 1.37e17),

@@ -14,6 +14,7 @@ from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
+from thermodata.reader.text.clocks.counts_of_seconds import far_question
 from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times.clock_numbers import DAYS_OF_YEAR, days_beside, fraction_question, year_and_day
@@ -171,6 +172,8 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
         raise counted
     if may_be_excel(values):
         return excel_or_question(name, values, where, "s")
+    if (far := far_question(name, values, "s", where)) is not None:
+        raise far
     raise unit_question(name, values, where)
 
 
