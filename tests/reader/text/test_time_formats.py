@@ -120,13 +120,20 @@ def test_what_only_begins_so_is_no_time(header: str) -> None:
         (" 21:30:{i:02d}+09:00", " %H:%M:%S%z"),
     ],
 )
-def test_a_format_that_is_proposed_reads_the_cells_that_it_is_proposed_for(clock: str, letters: str) -> None:
-    cells = [("'" if i % 2 else "") + "26-02-09" + clock.format(i=i) for i in range(40)]
+@pytest.mark.parametrize("sign", "-/.")
+def test_a_format_that_is_proposed_reads_the_cells_that_it_is_proposed_for(sign: str, clock: str, letters: str) -> None:
+    cells = [("'" if i % 2 else "") + f"26{sign}02{sign}09" + clock.format(i=i) for i in range(40)]
     with pytest.raises(QuestionError) as question:
         find_formats(["Time"], [cells], None, "here")
-    proposed = f"%y-%m-%d{letters}"
+    proposed = f"%y{sign}%m{sign}%d{letters}"
     assert f"'{proposed}' or dmy?" in question.value.ask
     assert share(cells, declared_format(proposed)) == 1
+
+
+@pytest.mark.parametrize("cells", [["09.02.26 21:30:00"], ["26.02.09 23:59:00", "27.02.09 00:01:00"], ["31.12.15"]])
+def test_dots_mean_day_first_where_no_year_of_today_can_come_first(cells: list[str]) -> None:
+    (found,) = find_formats(["Time"], [cells * 20], None, "here")
+    assert found.text.startswith("DD.MM.YY")
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,8 @@
 """How the time columns of a table are written, told from their cells; and the times of a whole column in memory.
 
-The order of day and month is read from the column, never guessed: dots mean day first, a number above 12 decides, and
-AM or PM means month first. A column's cells all name their offset from UTC, or none of them does.
+The order of day and month is read from the column, never guessed: dots mean day first (where a year of two digits may
+not come first), a number above 12 decides, and AM or PM means month first. A column's cells all name their offset from
+UTC, or none of them does.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.zone import NAT
 
 _FEW, _MANY = 40, 4000
-_SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
+_SHORT = re.compile(r"\s*'?(\d{2})[-/.](\d{2})[-/.](\d{2})(?!\d)")
 _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _MIDNIGHT_NS = 3600 * 10**9  # within which the row after midnight follows
