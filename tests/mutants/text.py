@@ -341,8 +341,8 @@ MUTANTS = [
     ),
     text(
         "rows/quality_columns.py",
-        "[0 if _keeps(str(word), zero, faults) else BAD",
-        "[BAD if _keeps(str(word), zero, faults) else 0",
+        "[0 if _keeps(str(word), zero, name) else BAD",
+        "[BAD if _keeps(str(word), zero, name) else 0",
         "good values are bad",
     ),
     # ---- lines

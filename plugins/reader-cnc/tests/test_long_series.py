@@ -12,6 +12,7 @@ from thermodata_reader_cnc.opcua.row_units import number_and_unit
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.text.cells.status import BAD
 from thermodata.testing.reader import load
 from thermodata.testing.reader.case import Data
 
@@ -298,3 +299,25 @@ def test_a_cell_of_blanks_is_answered_at_once() -> None:
     """The pattern takes the square of its letters: a minute of 100,000 blanks."""
     assert number_and_unit("1" + " " * 100_000 + "x") is None
     assert number_and_unit("1 234,5 rpm") == (1234.5, "rpm")
+
+
+@pytest.mark.parametrize("columns", ["status,severity", "severity"])
+def test_a_severity_of_epics_flags_values_and_parts_no_series(tmp_path: Path, columns: str) -> None:
+    rows = list[str]()
+    for k in range(N):
+        bad = 20 <= k < 25
+        said = ("READ", "INVALID") if bad else ("NO_ALARM", "MINOR" if k % 7 == 0 else "NO_ALARM")
+        for name in ("T_bed", "T_air"):
+            told = said if name == "T_bed" else ("NO_ALARM", "NO_ALARM")
+            rows.append(f"{name},{stamp(k)},{20 + k / 8},{','.join(told[-len(columns.split(',')) :])}")
+    data = read(tmp_path, f"name,time,value,{columns}", rows)
+    assert set(values(data)) == {"T_bed", "T_air"}
+    assert {key[1]: np.flatnonzero(f & BAD).tolist() for key, f in data.flags.items() if (f & BAD).any()} == {
+        "T_bed": [20, 21, 22, 23, 24]
+    }
+
+
+def test_a_severity_of_messages_flags_nothing(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},T_bed,{20 + k / 8},{'WARNING' if k == 5 else 'INFO'}" for k in range(N)]
+    data = read(tmp_path, "time,name,value,severity", rows)
+    assert not any((f & BAD).any() for f in data.flags.values())

@@ -46,6 +46,11 @@ from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs,
             {"Quality": ["192"], "T1": ["20"], "Quality#2": ["0", "192"], "T2": ["20"]},
             {"T1": ("Quality", False), "T2": ("Quality#2", False)},
         ),
+        ({"Value": ["20"], "Severity": ["NONE", "INVALID"]}, {"Value": ("Severity", True)}),
+        ({"T1": ["20"], "T1.SEVR": ["NO_ALARM", "MINOR"]}, {"T1": ("T1.SEVR", True)}),
+        ({"T1": ["20"], "Severity": ["Info", "Warning"]}, {}),  # of a message
+        ({"T1": ["20"], "T1 severity": ["100", "500"]}, {}),  # of an event of OPC
+        ({"T1": ["20"], "Severity": ["INVALID"]}, {}),  # and nothing that counts
         (  # the surest of Wonderware's three
             {"Value": ["20"], "Quality": ["0", "1"], "QualityDetail": ["192", "24"]},
             {"Value": ("QualityDetail", False)},
@@ -94,6 +99,12 @@ def test_qualities_in_words_or_hexadecimal_are_text() -> None:
 )
 def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]) -> None:
     assert bad_rows(values, zero).tolist() == [b * BAD for b in bad]
+
+
+def test_of_a_severity_all_but_what_is_invalid_was_measured() -> None:
+    said = np.array(["NONE", "NO_ALARM", "MINOR", "MAJOR_ALARM", "", None, "INVALID", "UNDEFINED"], object)
+    assert bad_rows(said, True, "Severity").tolist() == [0, 0, 0, 0, 0, 0, BAD, BAD]
+    assert bad_rows(said[:1], True, "Quality").tolist() == [BAD]
 
 
 @pytest.mark.parametrize(

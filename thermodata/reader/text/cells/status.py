@@ -1,5 +1,5 @@
 """Quality and status of logged values: OPC's classic codes, of 8 bit or of 16 with a vendor's byte above, OPC UA's
-status codes of 32 bit, and their words."""
+status codes of 32 bit, and their words; and the severity of an alarm in EPICS, whose INVALID is no measured value."""
 
 from __future__ import annotations
 
@@ -31,8 +31,11 @@ _NAMES = tuple(
         "dataintegrity",
     )
 )
-_GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true")
+_GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true", "no_alarm")
 _BAD_WORDS = ("bad", "schlecht", "invalid", "false")
+_SEVERITY = re.compile(r"(?i)(?:^|[ ._:/-])(?:alarm[ _]?)?(?:severity|sevr)(?:#\d+)?$")
+_MEASURED = frozenset({"none", "no_alarm", "minor", "minor_alarm", "major", "major_alarm"})  # beyond a limit, perhaps
+_SEVERITIES = _MEASURED | {"invalid", "invalid_alarm", "undefined", "disconnected"}
 _NO_FAULT = ("false", "ok", "none", "no", "no error", "good", "-", "nein", "kein", "keine", "falsch")
 _INITIAL = 133  # the first value of Wonderware's answer, whose quality is 0 (good), 1 (bad), 16 (doubtful) or this
 _GOOD = frozenset({0, 1, _INITIAL, *range(192, 220), 248, 249, 252})  # somewhere
@@ -60,7 +63,11 @@ def tells_quality(name: str) -> int | None:
 
 def are_qualities(statuses: Iterable[str], name: str) -> bool:
     """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent, and
-    no 0 and 1 of a machine that stands and runs under a bare "StatusCode", for no status of OPC UA is 1."""
+    no 0 and 1 of a machine that stands and runs under a bare "StatusCode", for no status of OPC UA is 1; and whether
+    those under a "Severity" are words of EPICS, for other programs have severities of events."""
+    if is_severity(name):
+        said = {s.strip().casefold() for s in statuses} - {""}
+        return bool(said & _MEASURED) and said <= _SEVERITIES
     none = frozenset({1}) if "status" in name.casefold() else frozenset()
     texts = {s.strip().casefold() for s in statuses} - {""}
     words = {text for text in texts if text.startswith((*_GOOD_WORDS, *_BAD_WORDS))}
@@ -69,6 +76,11 @@ def are_qualities(statuses: Iterable[str], name: str) -> bool:
     low = {c & 0xFF for c in codes if c is not None and c in _WORD}
     good = codes & _GOOD or (low <= _KNOWN and low & _KEPT)
     return known and (bool(good) or any(is_good(word, True) for word in words))
+
+
+def is_severity(name: str) -> bool:
+    """Whether a column is called the severity of an alarm."""
+    return _SEVERITY.search(name) is not None
 
 
 def zero_is_good(statuses: Iterable[str], name: str) -> bool | None:
@@ -123,8 +135,11 @@ def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str
 @lru_cache(maxsize=4096)
 def is_good(status: str, zero: bool, name: str = "") -> bool:
     """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, of 16 bit by their low byte, or
-    UA's codes below bad; no status at all too. zero: what the code 0 means; 1 means the other. name: the column's."""
+    UA's codes below bad; no status at all too; of a severity all but INVALID. zero: what the code 0 means; 1 means the
+    other. name: the column's."""
     text = status.strip().casefold()
+    if is_severity(name):
+        return not text or text in _MEASURED
     if not text or text.startswith(_GOOD_WORDS):
         return True
     code = _code(text)

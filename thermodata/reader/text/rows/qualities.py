@@ -19,7 +19,6 @@ from thermodata.reader.text.rows.quality_columns import (
     said_of_codes,
     second_pairs,
     states,
-    tells_faults,
     values_of,
     worded,
 )
@@ -46,7 +45,7 @@ class Qualities:
         """The flags of values, with those of the rows that their qualities call bad; shape (n,) each."""
         found = dict(flags)
         for name, (own, zero) in (*self.of_values.items(), *self.of_rows.items()):
-            if name in values and own in values and (bad := bad_rows(values[own], zero, tells_faults(own))).any():
+            if name in values and own in values and (bad := bad_rows(values[own], zero, own)).any():
                 found[name] = found.get(name, np.zeros(bad.size, np.uint16)) | bad
         return found
 

@@ -13,12 +13,20 @@ from thermodata.plugin import Array
 from thermodata.reader.signals.interleaved import bare_header
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, is_no_fault, tells_quality, zero_is_good
+from thermodata.reader.text.cells.status import (
+    BAD,
+    are_qualities,
+    is_good,
+    is_no_fault,
+    is_severity,
+    tells_quality,
+    zero_is_good,
+)
 from thermodata.reader.text.names.header import split_unit
 
 _WORD = (
     r"(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
-    r"|status[ _]?code|opc[ _]?status|valid(?:ity)?)"
+    r"|status[ _]?code|opc[ _]?status|valid(?:ity)?|(?:alarm[ _]?)?(?:severity|sevr))"
 )
 _QUALITY = re.compile(rf"^(?P<base>.+?)[ ._:/-]*{_WORD}$", re.IGNORECASE)
 _BARE = re.compile(rf"^{_WORD}(?:#\d+)?$", re.IGNORECASE)  # a name that stands again has its number
@@ -51,7 +59,7 @@ def quality_pairs(
     found = _of_bare(columns)
     for name in columns:
         match = _QUALITY.match(name) or _ROUND.match(name)
-        if match is None or _BARE.match(name):
+        if match is None or _BARE.match(name) or (is_severity(name) and not _are_qualities(columns, name)):
             continue
         value = _value(columns, name, match["base"])
         if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
@@ -60,7 +68,7 @@ def quality_pairs(
     for value, name in _beside(columns, "fault", measured).items():
         pairs.setdefault(value, (name, True))
     for value, name in _beside(columns, "state", measured).items():
-        if not _is_a_switch(columns[name]) and are_qualities(map(clean, columns[name]), name):
+        if not _is_a_switch(columns[name]) and _are_qualities(columns, name):
             pairs.setdefault(value, (name, True))
     return pairs
 
@@ -93,6 +101,10 @@ def said_of_codes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str]
         for name, value in found.items()
         if _STATUS.search(name) and not _is_a_switch(columns[name])
     ]
+
+
+def _are_qualities(columns: Mapping[str, Sequence[str]], name: str) -> bool:
+    return are_qualities(map(clean, columns[name]), name)
 
 
 def _is_a_switch(cells: Sequence[str]) -> bool:
@@ -169,9 +181,9 @@ def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]
     """Value column -> (a column that is called quality and no more, its word): of one such column all values of its
     row, of several each those that stand before it, or behind it where the first does."""
     matches = {name: match for name in columns if (match := _BARE.match(name))}
-    bare = {n: m["word"].casefold() for n, m in matches.items() if are_qualities(map(clean, columns[n]), n)}
+    bare = {n: m["word"].casefold() for n, m in matches.items() if _are_qualities(columns, n)}
     if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
-        surest = min(words, key=lambda word: (tells_quality(bare_header(word)) or 0, word))
+        surest = min(words, key=lambda word: (is_severity(word), tells_quality(bare_header(word)) or 0, word))
         bare = {name: word for name, word in bare.items() if word == surest}
     beside = {*_beside(columns, "fault", ()).values(), *_beside(columns, "state", ()).values()}
     order = [
@@ -203,17 +215,17 @@ def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:
     return {name for name in told if any(not _CODE.match(clean(cell)) for cell in columns[name])}
 
 
-def bad_rows(values: Array, zero: bool, faults: bool = False) -> Array:
-    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good. faults: it says
-    these, and 0 is none."""
+def bad_rows(values: Array, zero: bool, name: str = "") -> Array:
+    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good. name: the
+    column's, which tells whether it says faults, of which 0 is none, or the severity of alarms."""
     if values.dtype.kind == "f":
         texts = np.where(np.isnan(values), "", np.char.mod("%d", np.nan_to_num(values)))
     else:
         texts = np.array(["" if v is None else str(v) for v in values.tolist()], str)
     words, which = np.unique(texts, return_inverse=True)
-    flags: Array = np.array([0 if _keeps(str(word), zero, faults) else BAD for word in words], np.uint16)[which]
+    flags: Array = np.array([0 if _keeps(str(word), zero, name) else BAD for word in words], np.uint16)[which]
     return flags
 
 
-def _keeps(text: str, zero: bool, faults: bool) -> bool:
-    return is_no_fault(text) if faults else is_good(text, zero)
+def _keeps(text: str, zero: bool, name: str) -> bool:
+    return is_no_fault(text) if tells_faults(name) else is_good(text, zero, name)

@@ -12,7 +12,7 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_empty
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import tells_quality, zero_is_good
+from thermodata.reader.text.cells.status import are_qualities, is_severity, tells_quality, zero_is_good
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
@@ -155,7 +155,8 @@ def _header(raw: Sequence[str], below: Sequence[Sequence[str]]) -> _Header | Non
     tag = pairs[0][0] if pairs else next((names.index(n) for n in TAGS if n in names), None)
     if {"_time", "_value"} <= set(raw):
         return _Header(raw, names, Times((raw.index("_time"),), "_time", None), tag, value, (), None, pairs, True)
-    status = _status(names)
+    told = _qualities(names, below)
+    status = min(told, key=lambda k: (told[k], k), default=None)
     if tag is None and ("sourcetimestamp" not in names or status is None):
         return None
     others = {k for k in (tag, *values, status, *(k for pair in pairs for k in pair)) if k is not None}
@@ -190,7 +191,7 @@ def _headed_by(
     units = [
         k for k, c in enumerate(header.raw) if k not in taken and holds_units(c, (clean(cells[k]) for cells in body))
     ]
-    statuses = [k for k, n in enumerate(header.names) if tells_quality(n) is not None]
+    statuses = list(_qualities(header.names, body))
     every = (fields(text, delimiter) for text in (*lines[row + 1 :], *later))
     series = _series(header, every, form, {*units, *statuses})
     if _is_wide(header, series):
@@ -261,10 +262,17 @@ def _more(
     )
 
 
-def _status(names: Sequence[str]) -> int | None:
-    """The column that says most surely how good a value is, by bare names."""
-    told = [(sure, k) for k, name in enumerate(names) if (sure := tells_quality(name)) is not None]
-    return min(told)[1] if told else None
+def _qualities(names: Sequence[str], rows: Iterable[Sequence[str]]) -> dict[int, int]:
+    """The columns that say how good a value is -> how surely, 0 and less the surest. names: bare; rows: their cells,
+    by which a severity is one of EPICS, beside whose INVALID its status says why."""
+    whole = [cells for cells in rows if len(cells) == len(names)]
+    found: dict[int, int] = {}
+    for k, name in enumerate(names):
+        if is_severity(name) and are_qualities((clean(cells[k]) for cells in whole), name):
+            found[k] = -1
+        elif (sure := tells_quality(name)) is not None:
+            found[k] = sure
+    return found
 
 
 def _time(cells: Sequence[str], times: Sequence[int]) -> str:
