@@ -192,3 +192,13 @@ def test_a_unit_in_utf_8_that_was_read_as_windows_is_proposed_and_asked(
 @pytest.mark.parametrize("name", ["/thermo/spindle.variance", "T_stddev", "Varianz T1"])
 def test_how_far_readings_scatter_is_no_reading(name: str) -> None:
     assert guess(name, None, "float64", values_of(np.linspace(0.0, 0.01, 200))).quantity is None
+
+
+@pytest.mark.parametrize(
+    "name", ["/rtd.layout.dim.size", "/rtd.layout.dim.rear,motor.stride", "/rtd.layout.data_offset"]
+)
+def test_how_an_array_is_laid_out_is_no_reading(name: str) -> None:
+    found = guess(name, None, "float64", values_of(np.full(200, 2.0)))
+    assert found.quantity is None
+    assert "how an array is laid out" in found.comment()
+    assert guess("/rtd.data[0]", None, "float64", values_of(np.linspace(20, 25, 200))).quantity == "temperature"

@@ -204,6 +204,7 @@ _FOREIGN: tuple[tuple[str, str], ...] = (
         "时间 "
         "时刻 datum. elapsed. time. date. cas~s sec. secs. laufzeit epoch.",
     ),
+    ("how an array is laid out", "layout~dim layout~data~offset"),
     ("a vibration or an acceleration", "vibrat vibrac accel beschleun schwing zrychl 振动 加速度 ^acc. rms~v"),
     ("how far readings scatter", "variance varianz covariance kovarianz stddev std~dev rozptyl"),
     ("a force", "force. forces. kraft. sila. sily. 切削力 作用力 loadcell load~cell. cutting~force vorschubkraft"),
