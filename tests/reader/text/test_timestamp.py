@@ -88,7 +88,10 @@ def test_fractions_of_a_second(cell: str, nanoseconds: int) -> None:
 
 @pytest.mark.parametrize(
     ("zone", "hours"),
-    [("Z", 0), (" UTC", 0), ("GMT", 0), ("+01:00", 1), ("-01:00", -1), ("+0530", 5.5), ("-0430", -4.5), (" +02", 2)],
+    [
+        *(("Z", 0), (" UTC", 0), ("GMT", 0), ("+01:00", 1), ("-01:00", -1), ("+0530", 5.5), ("-0430", -4.5)),
+        *((" +02", 2), (" +2", 2), (" -5", -5), (" +5:30", 5.5)),
+    ],
 )
 def test_an_offset_is_taken_off(zone: str, hours: float) -> None:
     """08:00 one hour east of Greenwich is 07:00 UTC."""
@@ -99,6 +102,12 @@ def test_an_offset_is_taken_off(zone: str, hours: float) -> None:
     assert both(f"2026-03-01T08:00:00{zone}", with_zone(DATETIME["ymd"], False)) == NAT
     assert is_zoned(f"2026-03-01T08:00:00{zone}", DATETIME["ymd"])
     assert not is_zoned("2026-03-01T08:00:00", DATETIME["ymd"])
+
+
+@pytest.mark.parametrize("behind", ["+2", "+1.5", " +2.5", " +2 h", " 2", "-5"])
+def test_what_may_be_part_of_a_second_or_a_value_is_no_offset(behind: str) -> None:
+    assert not is_zoned(f"2026-03-01 08:00:00{behind}", DATETIME["ymd"])
+    assert both(f"2026-03-01 08:00:00{behind}", with_zone(DATETIME["ymd"], True)) == NAT
 
 
 def test_rows_of_one_width_with_another_offset_are_read_each_with_its_own() -> None:

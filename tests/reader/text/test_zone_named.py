@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.make import draft_files
+from thermodata.errors import QuestionError
 from thermodata.plugin import Recording, Source
 from thermodata.reader.text import delimited
+from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.zone_named import named_in, saving_on
 
 HOUR = 3600 * 10**9
@@ -121,3 +123,12 @@ def test_a_zone_in_the_names_of_all_files_is_proposed(tmp_path: Path, names: lis
     draft_files(tmp_path)
     (asked,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
     assert f"timezone: {zone}" in asked
+
+
+@pytest.mark.parametrize(("word", "zone"), [("HKT", "Asia/Hong_Kong"), ("XYZT", "Area/City, as Europe/Prague,")])
+def test_a_word_behind_the_times_is_asked_with_its_zone_where_it_has_one(tmp_path: Path, word: str, zone: str) -> None:
+    rows = [f"2026-06-15 17:58:{k:02d} {word};{20 + k / 8}" for k in range(40)]
+    (tmp_path / "log.csv").write_text("\n".join(["Time;T_bed [degC]", *rows, ""]))
+    with pytest.raises(QuestionError, match=f"an unknown zone '{word}'") as asked:
+        open_table(tmp_path / "log.csv", Source())
+    assert f"write timezone: {zone} into" in (asked.value.ask or "")

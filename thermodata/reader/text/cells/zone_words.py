@@ -23,7 +23,7 @@ HOURS = {
     "AKST": -9,
     "HST": -10,
 }
-# abbreviations of several zones, with what may be declared
+# abbreviations of several zones, or of one that is not read by its word, with what may be declared
 SEVERAL = {
     "CST": ("America/Chicago", "Asia/Shanghai", "America/Havana"),
     "BST": ("Europe/London", "Asia/Dhaka"),
@@ -32,11 +32,23 @@ SEVERAL = {
     "SST": ("Pacific/Pago_Pago", "Asia/Singapore"),
     "JST": ("Asia/Tokyo",),
     "KST": ("Asia/Seoul",),
+    "HKT": ("Asia/Hong_Kong",),
+    "SGT": ("Asia/Singapore",),
+    "MYT": ("Asia/Kuala_Lumpur",),
+    "ICT": ("Asia/Bangkok",),
+    "WIB": ("Asia/Jakarta",),
+    "TRT": ("Europe/Istanbul",),
+    "BRT": ("America/Sao_Paulo",),
+    "SAST": ("Africa/Johannesburg",),
+    **dict.fromkeys(("AEST", "AEDT"), ("Australia/Sydney", "Australia/Brisbane")),
+    **dict.fromkeys(("NZST", "NZDT"), ("Pacific/Auckland",)),
 }
+ANY_ZONE = "Area/City, as Europe/Prague,"
 OFFSET = r"[+-]\d{2}(?::?\d{2})?"
 # longer words first, or CEST would be read as CE and a rest
 WORDS = "|".join(sorted(HOURS, key=len, reverse=True))
-_STATED_OFFSET = rf"(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}"
+_SHORT_OFFSET = r"(?<=\s)[+-]\d(?::\d{2})?(?!\w)"  # '11:58:00 +2'
+_STATED_OFFSET = rf"(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}|{_SHORT_OFFSET}"
 ZONE = rf"(?P<z>\s*(?:{_STATED_OFFSET}|\((?:{_STATED_OFFSET})\)|\(?(?:{WORDS})\)?(?!\w)))"
 _ALONE = re.compile(ZONE, re.ASCII)
 _BEHIND = re.compile(r"\d\s*(?:[AaPp]\.?[Mm]\.?)?\s*(?P<word>\(?[^\W\d_]{2,5}\)?)$")

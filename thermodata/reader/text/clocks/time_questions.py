@@ -12,7 +12,7 @@ from thermodata.plugin import Array
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.joined_clock import format_of_joined
-from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
+from thermodata.reader.text.cells.zone_words import ANY_ZONE, HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.clocks.counts_of_seconds import far_question
 from thermodata.reader.text.clocks.format_question import format_question
@@ -255,7 +255,7 @@ def zone_question(seen: FirstRows, columns: Iterable[int]) -> QuestionError | No
         spelled = guess_format(list(bare.values())) if len(set(words.values())) == 1 else None
         form = spelled + cell[len(bare[cell]) :] if spelled else UNKNOWN
         zones = SEVERAL.get(word, ())
-        shown = " or ".join(zones) if zones else "Europe/Prague"
+        shown = " or ".join(zones) if zones else ANY_ZONE
         said = {"time": {"column": i + 1, "format": form}}
         return QuestionError(
             f"times in a zone that has several meanings: '{word}'" if len(zones) > 1 else f"an unknown zone '{word}'",

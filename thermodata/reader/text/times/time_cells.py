@@ -12,7 +12,7 @@ from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stam
 from thermodata.reader.text.cells.clock_pattern import is_half, needs_half
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_pattern import TimeFormat
-from thermodata.reader.text.cells.zone_words import SEVERAL, is_zone, offset_ns
+from thermodata.reader.text.cells.zone_words import ANY_ZONE, SEVERAL, is_zone, offset_ns
 from thermodata.reader.text.names.header import split_unit
 
 _HOUR_NS = 3600 * 1_000_000_000
@@ -151,7 +151,7 @@ def part_question(columns: tuple[int, ...], seen: FirstRows) -> QuestionError | 
         )
     if not (names_zone(name) or all(w in SEVERAL for w in words)) or any(map(is_number, words)):
         return None
-    shown = " or ".join(SEVERAL.get(words[0], (words[0] if "/" in words[0] else "Europe/Prague",)))
+    shown = " or ".join(SEVERAL.get(words[0], (words[0] if "/" in words[0] else ANY_ZONE,)))
     said = {"time": {"column": own}}
     return QuestionError(
         f"times in a zone that is not known by its word: '{words[0]}'",
