@@ -7,8 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from thermodata.calibration.channel import calibrate
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import values_of
+from thermodata.schema.files.campaign import Channel
 
 
 def asked(name: str, *readings: float, unit: str | None = None) -> str:
@@ -140,19 +142,22 @@ def test_what_burns_is_asked_where_it_may_be_something_else(
     assert asked in " ".join(said.questions)
 
 
+BED = Channel(source="s", signal="x", quantity="temperature")
 MEASURED = [f"{20 + k / 97:.3f}" for k in range(200)]
 
 
 @pytest.mark.parametrize(
     ("cells", "said"),
     [
-        (MEASURED, "numbers kept as text (20 to 22.05)"),
+        (MEASURED, "changing slowly: a temperature in degC?"),
+        ([c[:-1].replace(".", ",") for c in MEASURED], "changing slowly: a temperature in degC?"),
+        ([f"{100 * float(c):.1f}" for c in MEASURED], "quantity and unit? numbers kept as text (2000 to 2205)"),
         ([c.replace(".", ",") for c in MEASURED], "numbers kept as text (20 to 22.05)"),
         (
             [c.translate(str.maketrans("0123456789.", "０１２３４５６７８９．")) for c in MEASURED],
             "numbers kept as text",
         ),
-        ([*MEASURED, "", "n/a"], "numbers kept as text"),
+        ([*MEASURED, "", "n/a"], "changing slowly"),
         ([f"{1000 + k}" for k in range(200)], "sure: text"),  # of programs
         (["1.5", "2.5"] * 100, "sure: text"),  # versions of one
         ([f"N{c}" for c in MEASURED], "sure: text"),
@@ -161,6 +166,15 @@ MEASURED = [f"{20 + k / 97:.3f}" for k in range(200)]
 def test_numbers_that_a_file_keeps_as_text_are_asked(cells: list[str], said: str) -> None:
     seen = values_of(np.array(cells, object))
     assert said in guess("bed", None, "str", seen).comment()
+
+
+def test_texts_that_ingest_reads_as_numbers_are_drafted_by_what_their_name_says() -> None:
+    seen = values_of(np.array(MEASURED, object))
+    found = guess("/diagnostics.status.spindle.values.Temperature front [C].value", None, "str", seen)
+    assert (found.quantity, found.unit, found.sure) == ("temperature", "degC", False)
+    values, flags = calibrate(np.array(MEASURED, object), channel=BED, signal_unit="degC", scaling=None)
+    assert values.tolist() == [float(c) for c in MEASURED]
+    assert not flags.any()
 
 
 def test_a_unit_in_the_letters_of_another_encoding_is_asked_for_that_first() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -245,6 +246,14 @@ def _range_flags(
     return flags
 
 
+def number_in(text: str) -> float:
+    """A number written as text, with a point or a comma; NaN for what is none (UNAVAILABLE, an empty cell)."""
+    try:
+        return float(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
+    except ValueError:
+        return math.nan
+
+
 def _from_text(raw: Array, state: bool) -> Float1D:
     """Numbers written as text; NaN for what is none (UNAVAILABLE, an empty cell)."""
     words, index = np.unique(np.asarray(raw, dtype=object).astype(str), return_inverse=True)
@@ -254,9 +263,6 @@ def _from_text(raw: Array, state: bool) -> Float1D:
         if state and bare in TRUE_WORDS | FALSE_WORDS:
             numbers[i] = float(bare in TRUE_WORDS)
             continue
-        try:
-            numbers[i] = float(bare.replace(",", ".") if bare.count(",") == 1 and "." not in bare else bare)
-        except ValueError:
-            continue
+        numbers[i] = number_in(bare)
     result: Float1D = numbers[index.reshape(-1)]
     return result

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.calibration.channel import number_in
 from thermodata.plugin import Float1D
 from thermodata.reader.signals.unit_words import is_surely_unit
 
 _NUMERAL = re.compile(r"(?P<number>[-+]?\d*[.,]?\d+([eE][-+]?\d+)?)(?:\s?(?P<unit>[^\d\s.,+-]\S{0,11}))?")
+_MAY_BE_THOUSANDS = re.compile(r",\d{3}$")
 _LONGEST = 64  # letters of one
 _FEW, _MOSTLY = 8, 0.9  # texts that differ
 # dashboards write 7.5 K for 7500, beside 800
@@ -22,10 +24,11 @@ _THOUSANDS = ("k", "K", "M", "G", "Mil", "Bil")
 @dataclass(frozen=True, slots=True)
 class Numerals:
     """numbers: as they stand before their units, shape (n,), NaN of words. units: one text with a unit and a bare one,
-    '' where there is none; None where none has a unit."""
+    '' where there is none; None where none has a unit. read: ingest takes these numbers as they stand."""
 
     numbers: Float1D
     units: tuple[str, str] | None
+    read: bool
 
 
 def bare_word(cell: object) -> str:
@@ -44,7 +47,9 @@ def numerals_of(cells: Sequence[object]) -> Numerals | None:
     with_unit = next((said[w] for w, m in found.items() if m["unit"]), "")
     bare = next((said[w] for w, m in found.items() if not m["unit"]), "")
     units = (with_unit, bare) if with_unit else None
-    return Numerals(np.array([float(numbers.get(word, "nan")) for word in cells]), units)
+    plain = not with_unit and not any(_MAY_BE_THOUSANDS.search(said[word]) for word in numbers)
+    read = plain and all(number_in(bare_word(word)) == float(number) for word, number in numbers.items())
+    return Numerals(np.array([float(numbers.get(word, "nan")) for word in cells]), units, read)
 
 
 def asked(units: tuple[str, str]) -> str:

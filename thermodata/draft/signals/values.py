@@ -29,8 +29,8 @@ class Values:
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
     second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
     and 1; numerals: texts that are numbers, measured ones by their fractions; units: where some of these have a unit,
-    or a letter for thousands, behind them, such a one and a bare one ('7.5 K', '800'; '' where all have). body: the
-    range of 99 % of many; None of few."""
+    or a letter for thousands, behind them, such a one and a bare one ('7.5 K', '800'; '' where all have); read: ingest
+    takes such texts for their numbers. body: the range of 99 % of many; None of few."""
 
     n: int
     low: float
@@ -47,6 +47,7 @@ class Values:
     numerals: bool = False
     units: tuple[str, str] | None = None
     body: tuple[float, float] | None = None
+    read: bool = False
 
     @property
     def counts_rows(self) -> bool:
@@ -88,7 +89,7 @@ def values_of(column: Array) -> Values | None:
         return None if made is None else replace(made, text=True)
     if column.dtype.kind in "OUS" and (kept := numerals_of(column.tolist())) is not None:
         made = values_of(kept.numbers)
-        return None if made is None else replace(made, numerals=True, units=kept.units)
+        return None if made is None else replace(made, numerals=True, units=kept.units, read=kept.read)
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
@@ -193,6 +194,7 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         one.numerals and other.numerals,
         next((v.units for v in (one, other) if v.units is not None and v.units[1]), one.units or other.units),
         _joined_bodies(one, other),
+        one.read and other.read,
     )
 
 

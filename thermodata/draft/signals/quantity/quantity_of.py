@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from thermodata.draft.signals import units
 from thermodata.draft.signals.numerals import asked
 from thermodata.draft.signals.quantity.by_name import by_name
 from thermodata.draft.signals.quantity.by_unit import by_unit
-from thermodata.draft.signals.quantity.guessed import NO_READING, Guess
+from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
@@ -22,6 +24,8 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     """What a signal measures. own: its name; text: the name with what stands over it; unit: None where the file says
     none; values: a sample of them, where there is one."""
     bare = unit is None or normal_unit(unit) == "dimensionless"
+    if dtype == "str" and values is not None and values.read:
+        return _of_numerals(quantity_of(own, text, unit, "float64", values), values)
     if dtype == "str":
         return _of_words(own, unit, bare, values)
     named = quantities_in(own) or quantities_in(text)
@@ -46,6 +50,16 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
         assert unit is not None
         return by_unit(own, named, unit, values)
     return by_name(own, named, values, dtype)
+
+
+def _of_numerals(found: Guess, values: Values) -> Guess:
+    """Of a signal whose texts are numbers, by what these would be. A program's version, or a lot, is written so too."""
+    if found.quantity is not None:
+        return replace(found, sure=False)
+    if not (found.why_not or "").startswith(NOTHING):
+        return found
+    why = f"{NOTHING} numbers kept as text ({values.span()}); quantity: label if they measure nothing"
+    return replace(found, why_not=why)
 
 
 def _of_words(own: str, unit: str | None, bare: bool, values: Values | None) -> Guess:
