@@ -288,3 +288,27 @@ def test_logs_of_other_days_are_tests_also_where_they_are_numbered(tmp_path: Pat
     _, made = drafted(tmp_path)
     assert len(made.tests) == 3
     assert len(made.sources) == 1
+
+
+def hall(path: Path, signal: str, days: float = 3.2) -> None:
+    rows = [f"{START + timedelta(minutes=10 * k):%Y-%m-%d %H:%M:%S};{20 + k / 100}" for k in range(round(144 * days))]
+    path.write_text("\n".join([f"Time;{signal} [degC]", *rows, ""]))
+
+
+def test_two_logs_of_the_hall_that_are_called_alike_run_over_the_tests_and_are_none(tmp_path: Path) -> None:
+    for k, test in enumerate(("heat_2000", "heat_5000", "heat_8000")):
+        log(tmp_path / f"{test}.tdms", k + 0.1)
+    hall(tmp_path / "tinytag_hall.csv", "T north")
+    hall(tmp_path / "ttn_hall.txt", "T south")
+    _, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["heat_2000", "heat_5000", "heat_8000"]
+    assert {s.files for s in made.sources.values()} == {"{test}.tdms", "tinytag_hall.csv", "ttn_hall.txt"}
+
+
+def test_two_logs_of_one_test_beside_others_are_that_test(tmp_path: Path) -> None:
+    for k, test in enumerate(("heat_2000", "heat_5000", "heat_8000")):
+        log(tmp_path / f"{test}.tdms", k + 0.1)
+    hall(tmp_path / "tinytag_warmup.csv", "T north", days=0.05)
+    hall(tmp_path / "ttn_warmup.txt", "T south", days=0.05)
+    _, made = drafted(tmp_path)
+    assert "warmup" in {t.id for t in made.tests}

@@ -29,12 +29,14 @@ def tests_of(groups: Sequence[Group], besides: Iterable[str]) -> list[Group]:
     ways = {g.source: _allowed(g) for g in live}
     chosen = agreeing(live, ways)
     made = {g.source: replace(g, tests=grouped(g, chosen[g.source])) for g in live}
-    main = max(made.values(), key=lambda g: (_told(g, made.values()), len(g.tests), _voltage(g), -len(g.source)))
-    known = {normal(t): t for g in made.values() for t in g.tests if g is main or _told(g, [main])}
+    over = {g.source for g in live if any(_is_over(made[g.source], other) for other in made.values())}
+    own = [g for g in made.values() if g.source not in over] or list(made.values())
+    main = max(own, key=lambda g: (_told(g, own), len(g.tests), _voltage(g), -len(g.source)))
+    known = {normal(t): t for g in own for t in g.tests if g is main or _told(g, [main])}
     for g in made.values():
         if g is main:
             continue
-        if _told(g, [main]):
+        if g in own and _told(g, [main]):
             made[g.source] = replace(g, tests={known.get(normal(t), t): f for t, f in g.tests.items()})
             continue
         made[g.source] = _by_time(g, [main])
@@ -185,6 +187,23 @@ def _told(group: Group, others: Iterable[Group]) -> int:
     return sum(normal(t) in ids for t in group.tests)
 
 
+def _is_over(group: Group, other: Group) -> bool:
+    """Whether a group of one file, as a log of the hall is, runs over several tests of another one and is called after
+    none of them: two such logs that are called alike are no test of their own."""
+    return len(group.files) == 1 and not _told(group, [other]) and len(_inside(group, _begins(other))) > 1
+
+
+def _begins(group: Group) -> dict[str, int]:
+    """The first time of each test that has one [ns]."""
+    return {t: min(s) for t, f in group.tests.items() if (s := [x.start_ns for x in f if x.start_ns is not None])}
+
+
+def _inside(group: Group, begins: Mapping[str, int]) -> list[str]:
+    """The tests that begin while a file of the group runs. begins: test -> its first time [ns]."""
+    spans = [(f.start_ns, max(f.sample.last_ns or 0, f.start_ns)) for f in group.files if f.start_ns is not None]
+    return [t for t, begin in begins.items() if any(a - _NEAR_NS <= begin <= b + _NEAR_NS for a, b in spans)]
+
+
 def _voltage(group: Group) -> int:
     return sum(s.unit in ("V", "um", "µm", "mV") for s, _ in group.signals)
 
@@ -192,7 +211,7 @@ def _voltage(group: Group) -> int:
 def _by_time(group: Group, others: Sequence[Group]) -> Group:
     """A group whose names agree with no other's: its files belong to the tests that ran at their time."""
     main = others[0]
-    begins = {t: min(s) for t, f in main.tests.items() if (s := [x.start_ns for x in f if x.start_ns is not None])}
+    begins = _begins(main)
     own = [f for f in group.files if f.start_ns is not None]
     if not begins or len(own) < len(group.files):
         return group
@@ -205,13 +224,8 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
             return replace(group, tests=parts, questions=("each file is of the tests that ran during it?",))
         if runs_across(own, ran, local):
             return replace(group, shared=True, tests={}, questions=("one log for many tests, in parts?",))
-    spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
-    inside = {
-        t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
-        for t, begin in begins.items()
-    }
     for_many = replace(group, shared=True, tests={}, questions=("one log for many tests?",))
-    if len(begins) > len(own) and sum(map(bool, inside.values())) > len(own):
+    if len(begins) > len(own) and len(_inside(group, begins)) > len(own):
         return for_many
     best: dict[str, RawFile] = {}
     for shift in sorted(range(-13, 15), key=abs):
