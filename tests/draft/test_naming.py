@@ -148,3 +148,11 @@ def test_values_of_samples_add_up() -> None:
 )
 def test_a_load_in_german_below_an_interval_is_no_statistic(signal: str, unit: str | None, name: str) -> None:
     assert wished_name(signal, guess(signal, unit, "float64")) == name
+
+
+@pytest.mark.parametrize("name", ["ΔZ", "\u2206Z", "δz", "Δ Z", "Prova S4000/ΔZ", "ΔZ_tcp", "ΔZ1"])
+def test_a_greek_delta_before_a_letter_is_a_difference(name: str) -> None:
+    found = guess(name, "µm", "float64", values_of(np.linspace(-30, 5, 200)))
+    assert (found.quantity, found.axis) == ("displacement", "Z")
+    assert words("ΔT front") == "delta t front"
+    assert words("Δεδομένα").startswith("δ")

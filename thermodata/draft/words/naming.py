@@ -33,6 +33,7 @@ _LETTERS = str.maketrans(
     }
 )
 # 'Xload', 'S1rpm': an axis letter before a word, as MTConnect adapters write it; S is the spindle
+_DELTA = re.compile(r"(?<![^\W\d_])[\u0394\u2206\u03b4](?=\s?[A-Za-z](?![a-z]))")  # before a letter: no Greek word
 _MTCONNECT = re.compile(
     r"(?<![A-Za-z])([XYZABCS])(\d?)(abs|actm|actw|act|com|cmd|current|curr|cur|frt|load|motor|"
     r"mot|ovr|pos|rpm|speed|temperature|temp|torque|velocity|vel|axis|travel|position)(?![a-z])"
@@ -49,9 +50,10 @@ def without_marks(text: str) -> str:
 
 
 def words(name: str) -> str:
-    """'Eddy/nActSpeed_Z1' -> 'eddy n act speed z 1', '主轴T1' -> '主轴 t 1': no case, no diacritics, humps and digits
-    apart."""
+    """'Eddy/nActSpeed_Z1' -> 'eddy n act speed z 1', '主轴T1' -> '主轴 t 1', 'ΔZ' -> 'delta z': no case, no diacritics,
+    humps and digits apart."""
     bare = _MTCONNECT.sub(lambda m: f"{'spindle' if m[1] == 'S' else m[1]}{m[2]} {m[3]}", without_marks(name))
+    bare = _DELTA.sub("delta ", bare)
     bare = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", bare)
     bare = re.sub(r"(?<=[^\W\d_])(?=\d)|(?<=\d)(?=[^\W\d_])", " ", bare)
     bare = re.sub(rf"(?<=[A-Za-z])(?=[{_EASTERN}])|(?<=[{_EASTERN}])(?=[A-Za-z])", " ", bare)
