@@ -53,9 +53,25 @@ _EXACT: list[tuple[str, str, float]] = [
     *((u, "l/min", 1000 / 60) for u in ("m3/h", "m³/h", "㎥/h", "m^3/h")),
     ("cfm", "l/min", 28.316846592),
     *((u, "um", 25.4) for u in ("mil", "mils", "thou")),
-    *((u, "um", 1000.0) for u in ("㎜", "ｍｍ")),
+    *((u, "um", 1000.0) for u in ("㎜", "ｍｍ", "MM", "мм", "milímetros", "millimetri")),
     *((u, "um", 0.0254) for u in ('µ"', 'u"', "μ″", "µ”", "µ''", "µ′′", "µin.", "u in", "micro-inch", "microinches")),
-    *((u, "um", 1.0) for u in ("㎛", "μ", "µ", "mkm", "Mikron", "μｍ", "µm\u200b", "\ufeffµm")),
+    *(
+        (u, "um", 1.0)
+        for u in (
+            "㎛",
+            "μ",
+            "µ",
+            "mkm",
+            "мкм",
+            "micrometri",
+            "micromètres",
+            "mikrometr",
+            "Mikron",
+            "μｍ",
+            "µm\u200b",
+            "\ufeffµm",
+        )
+    ),
     *((u, "bar", 0.980665) for u in ("kgf/cm2", "kgf/cm²", "㎏f/㎠", "kg/cm2", "kp/cm²", "at")),
     *((u, "bar", 10.0) for u in ("MPa", "㎫", "N/mm²", "N/mm2")),
     *((u, "bar", 0.01) for u in ("kPa", "㎪", "KPa")),
@@ -71,6 +87,8 @@ _EXACT: list[tuple[str, str, float]] = [
     *((u, "%", 1.0) for u in ("％", "% r.F.", "Proz.")),
     *((u, "urad", 1.0) for u in ("µm/m", "μm/m", "um/m", "㎛/m")),
     ("Grad", "deg", 1.0),
+    *((u, "degC", 1.0) for u in ("st. C", "gradi C", "Cel", "摂氏", "°С", "° С")),  # the last with a Cyrillic letter
+    ("U.p.M.", "rpm", 1.0),
     ("gon", "deg", 0.9),
     ("㏀", "Ohm", 1000.0),
     ("ipm", "m/min", 0.0254),

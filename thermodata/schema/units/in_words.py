@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 
-# LabVIEW and others write them out, in English or German, one or many
-_PREFIX = {"nano": "n", "micro": "u", "mikro": "u", "milli": "m", "centi": "c", "zenti": "c", "kilo": "k", "mega": "M"}
+# LabVIEW and others write them out, one or many; lengths in their languages: 'micrometri', 'milímetros', 'mikrometr'
+_PREFIX = {
+    **{"nano": "n", "micro": "u", "mikro": "u", "milli": "m", "mili": "m", "centi": "c", "zenti": "c"},
+    **{"kilo": "k", "mega": "M", "micró": "u", "milí": "m", "centí": "c", "nanó": "n"},
+}
 _WRITTEN_OUT = re.compile(
-    rf"(?P<prefix>{'|'.join(_PREFIX)})(?:(?P<m>met(?:er|re)[sn]?)|(?P<V>volts?)|(?P<A>amp(?:[eè]re)?s?)|(?P<W>watts?)|"
+    rf"(?P<prefix>{'|'.join(_PREFIX)})(?:(?P<m>m[eè]t(?:ers?|ern|res?|ro|ri|ros|r))|(?P<V>volts?)|(?P<A>amp(?:[eè]re)?s?)|(?P<W>watts?)|"
     r"(?P<N>newtons?)|(?P<Pa>pascals?)|(?P<K>kelvins?)|(?P<ohm>ohms?)|(?P<rad>radians?))",
     re.IGNORECASE,
 )

@@ -27,6 +27,7 @@ UNIT_SPELLING: dict[str, str] = {
     "r.p.m": "rpm",
     "krpm": "krpm",
     "upm": "rpm",
+    "u.p.m.": "rpm",
     "tr/min": "rpm",
     "/min": "rpm",
     "1/s": "turn/second",
@@ -54,6 +55,10 @@ UNIT_SPELLING: dict[str, str] = {
     "degreesc": "degC",
     "degreescelsius": "degC",
     "stc": "degC",
+    "st.c": "degC",
+    "gradic": "degC",
+    "cel": "degC",
+    "摂氏": "degC",
     "°cel": "degC",
     "degrc": "degC",
     "degr.c": "degC",
@@ -103,6 +108,10 @@ UNIT_SPELLING: dict[str, str] = {
     "prozent": "percent",
     "hertz": "turn/second",
     "mkm": "um",
+    "мкм": "um",
+    "мм": "mm",
+    "°с": "degC",
+    "квт": "kW",
     "mil": "thou",
     "mils": "thou",
     "urad": "urad",
@@ -196,8 +205,8 @@ UNIT_SPELLING: dict[str, str] = {
     "minuten": "min",
 }
 
-# in these the case of a letter counts: PS is a horse's power, ps a time
-_IN_THIS_CASE = {"PS": "metric_horsepower", "CV": "metric_horsepower"}
+# in these the case of a letter counts: PS is a horse's power, ps a time; Mm is a thousand kilometres
+_IN_THIS_CASE = {"PS": "metric_horsepower", "CV": "metric_horsepower", "MM": "mm"}
 # turns and minutes as the languages of labs write them: varv/min, omw/min, dev/dk, об/мин, 转/分
 _TURN = (
     r"(?:u|umdr|rev|revs|revoluciones|vueltas?|r|tr|tours?|giri|rot|rotações|obr|obrotów|ot|otáč(?:ek|ky)|otac(?:ek|ky)|o|"
