@@ -51,6 +51,8 @@ _SHORT_OFFSET = r"(?<=\s)[+-]\d(?::\d{2})?(?!\w)"  # '11:58:00 +2'
 _STATED_OFFSET = rf"(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}|{_SHORT_OFFSET}"
 ZONE = rf"(?P<z>\s*(?:{_STATED_OFFSET}|\((?:{_STATED_OFFSET})\)|\(?(?:{WORDS})\)?(?!\w)))"
 _ALONE = re.compile(ZONE, re.ASCII)
+# behind minutes or seconds, with AM or PM between them: the last part of a date is none
+_AT_END = re.compile(rf":\d{{2}}(?:[.,:;]\d{{1,9}})?(?:\s*[AaPp]\.?[Mm]\.?)?{ZONE}$", re.ASCII)
 _BEHIND = re.compile(r"\d\s*(?:[AaPp]\.?[Mm]\.?)?\s*(?P<word>\(?[^\W\d_]{2,5}\)?)$")
 
 
@@ -65,6 +67,27 @@ def offset_ns(text: str) -> int:
     digits = rest[1:].replace(":", "")
     hours, minutes = (digits[:2], digits[2:]) if len(digits) != 3 else (digits[:1], digits[1:])
     return (-1 if rest[0] == "-" else 1) * (int(hours) * 3600 + int(minutes or 0) * 60) * 1_000_000_000
+
+
+def with_zone_in_digits(cell: str) -> str:
+    """A cell whose zone at its end is an offset in four digits, for strptime: '10:00 PM EDT' is '10:00 PM -0400'.
+    As it stands where it ends in none."""
+    match = _AT_END.search(cell)
+    if match is None:
+        return cell
+    minutes = offset_ns(match["z"]) // (_HOUR_NS // 60)
+    blank = match["z"][: len(match["z"]) - len(match["z"].lstrip())]
+    digits = f"{'-' if minutes < 0 else '+'}{abs(minutes) // 60:02d}{abs(minutes) % 60:02d}"
+    return f"{cell[: match.start('z')]}{blank}{digits}"
+
+
+def without_zone(cell: str) -> tuple[str, str] | None:
+    """(the cell before it, '%z' with the blanks before it) of a zone behind a time of day; None where none is."""
+    match = _AT_END.search(cell)
+    if match is None:
+        return None
+    blank = match["z"][: len(match["z"]) - len(match["z"].lstrip())]
+    return cell[: match.start("z")], f"{blank}%z"
 
 
 def is_zone(text: str) -> bool:

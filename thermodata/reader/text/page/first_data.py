@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from thermodata.errors import FormatError
@@ -9,14 +10,21 @@ from thermodata.reader.text.cells.cell import WORDS, Cell, is_dated, is_number, 
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells
 from thermodata.reader.text.preamble.head_words import said_by
 
+# '31-Oct-26 10:00:00 PM', '2. března 2026 8:00'
+_WORDED = re.compile(r"\s*\d{1,2}[-/. ] ?[^\W\d_]{3,10}\.?[-/., ] ?(?:\d{4}|\d{2})[,T ]? ?\d{1,2}:\d{2}")
 _FEWEST_LABELS = 2  # rows of numbers behind a word
 
 
 def is_data(row: Sequence[Cell], width: int) -> bool:
-    """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer."""
+    """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer. A date with
+    the name of its month is one, though its format is asked."""
     filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in WORDS) and c is not None]
-    values = sum(is_number(c) or is_stamp(c) for c in filled)
+    values = sum(is_number(c) or is_stamp(c) or _is_worded(c) for c in filled)
     return values >= 1 and values * 3 >= len(filled) and len(row) >= width - 1 and (len(filled) > 1 or width <= 2)
+
+
+def _is_worded(cell: Cell) -> bool:
+    return isinstance(cell, str) and _WORDED.match(cell) is not None
 
 
 def second_half(body: Sequence[Sequence[Cell]]) -> list[Sequence[Cell]]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.calendar_words import letters_of
+from thermodata.reader.text.cells.zone_words import without_zone
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.times.zone import NAT
 
@@ -49,6 +50,9 @@ def _spellings(cell: str) -> Iterator[str]:
     year, else either."""
     if (week := _ISO_WEEK.match(cell)) is not None:
         yield from (f"%G-W%V-%u{clock}" for clock in _clocks(cell[week.end() :]))
+        return
+    if (zoned := without_zone(cell)) is not None:
+        yield from (f"{spelled}{zoned[1]}" for spelled in _spellings(zoned[0]))
         return
     parts = re.findall(r"\d+|[^\W\d_]+|[\W_]+", cell)
     words = [

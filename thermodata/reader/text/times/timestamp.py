@@ -20,7 +20,7 @@ from thermodata.reader.text.cells.calendar_words import in_english
 from thermodata.reader.text.cells.clock_pattern import in_24_hours
 from thermodata.reader.text.cells.number import text_array
 from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
-from thermodata.reader.text.cells.zone_words import offset_ns
+from thermodata.reader.text.cells.zone_words import offset_ns, with_zone_in_digits
 from thermodata.reader.times.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
@@ -134,7 +134,7 @@ def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
     """Cells of a declared format with names of months and the like, each different one once."""
     known: dict[str, int] = {}
     for cell in {c or "" for c in cells}:
-        text, ends = _DAY_ENDS.subn("00", cell.strip())
+        text, ends = _DAY_ENDS.subn("00", with_zone_in_digits(cell.strip()) if form.zoned else cell.strip())
         try:
             moment = datetime.strptime(*in_english(text, form.strptime or "")) + timedelta(days=ends)
         except (ValueError, re.error):  # a format that names a month twice is no pattern
