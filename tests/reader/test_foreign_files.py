@@ -267,3 +267,20 @@ def test_a_universal_file_with_binary_sets_is_named(tmp_path: Path) -> None:
     assert said.kind.startswith("a universal file (UFF 58b)")
     assert "pyuff.UFF('n3000.uff')" in said.kind
     assert said.advice is None
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "what", "do"),
+    [
+        ("bag_0.db3", b"SQLite format 3\0" + bytes(80), "a bag of ROS 2", "mcap convert bag_0.db3 bag_0.mcap"),
+        ("log.db", b"SQLite format 3\0" + bytes(80), "an SQLite database", "sqlite3 -header -csv log.db"),
+        ("hall.ttd", b"File format: Tinytag 4\r\nPK\x03\x04" + bytes(80), "Tinytag", "unzip -p hall.ttd"),
+        ("run.dxd", b"\0\0DEWESoft DXD\0\x01\x02" + bytes(80), "a recording of Dewesoft", "MAT, CSV or MDF"),
+    ],
+)
+def test_recordings_of_other_programs_are_named(tmp_path: Path, name: str, start: bytes, what: str, do: str) -> None:
+    (tmp_path / name).write_bytes(start)
+    said = explain(tmp_path / name)
+    assert what in said.kind
+    assert do in said.kind
+    assert said.advice is None

@@ -40,6 +40,9 @@ MYSQL = "".join(f"{'*' * 27} {i}. row {'*' * 27}\n   ts: 2026-03-10 08:00:0{i}\n
 PSQL = "".join(
     f"-[ RECORD {i} ]----------------\nts    | 2026-03-10 08:00:0{i}+00\nT_bed | 21.1\n" for i in range(1, 9)
 )
+SPOOL = "SQL> select ts, dz_um, t_loz from mereni\n  2  where zkouska = 'a' order by ts;\n\n"
+SPOOL += "TS                       DZ_UM      T_LOZ\n------------------- ---------- ----------\n"
+SPOOL += "".join(f"03.02.2026 08:00:0{i}       -0,{i}       21,{i}\n" for i in range(9))
 UFF_HEAD = "".join(f"{line:<80}\n" for line in ("dZ", "NONE", "04-May-26 08:00:00", "NONE", "NONE"))
 UFF = (
     "    -1\n    58\n" + UFF_HEAD + "    1         0    1         0 dZ                 1   3 NONE               0   0\n"
@@ -59,6 +62,7 @@ UNV = (
         (CAN, "CAN bus", "DBC"),
         (CANDUMP, "CAN bus", "DBC"),
         (RRD, "rrdtool", "sed"),
+        (SPOOL, "SQL*Plus", "set markup csv on"),
         (UFF, "universal file", "pyuff"),
         (UNV, "universal file", "pyuff"),
         (MYSQL, "rows of a database", "mysql --batch"),

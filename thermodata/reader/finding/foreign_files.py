@@ -40,6 +40,13 @@ _BY_CATMAN = "export it from catman as ASCII with channel information, or as MAT
 _KINDS = (
     _Kind(
         b"SQLite format 3",
+        "a bag of ROS 2 in SQLite, or another SQLite database",
+        "convert a bag to MCAP: ros2 bag convert, or mcap convert {name} {stem}.mcap; of another one export its table "
+        'as CSV: sqlite3 -header -csv {name} "select * from TABLE" > {stem}.csv',
+        (".db3",),
+    ),
+    _Kind(
+        b"SQLite format 3",
         "an SQLite database",
         'export its table as CSV: sqlite3 -header -csv {name} "select * from TABLE" > {stem}.csv, where sqlite3 {name} '
         ".tables names the tables",
@@ -71,6 +78,18 @@ _KINDS = (
         rb"PK\x03\x04[\s\S]*?word/(?:document|styles|settings|_rels)",
         "a document of Word",
         "save a table in it as XLSX or CSV",
+    ),
+    _Kind(
+        b"File format: Tinytag",
+        "a file of Tinytag Explorer, with a ZIP in it",
+        "export it from Tinytag Explorer as CSV, or take its readings out: unzip -p {name} "
+        "export/readings.csv > {stem}.csv",
+    ),
+    _Kind(
+        rb"[\s\S]{0,8}DEWESoft",
+        "a recording of Dewesoft X",
+        "export it from DewesoftX as MAT, CSV or MDF",
+        (".dxd", ".d7d"),
     ),
     _Kind(rb"\s{0,9}-1\s+58b\s", "a universal file (UFF 58b) with binary sets", BY_PYUFF.replace("FILE", "{name}")),
     _Kind(rb"\|CF,", "FAMOS of imc", "export it from imc FAMOS or imc STUDIO as CSV or TDMS"),

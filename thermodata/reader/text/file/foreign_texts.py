@@ -118,6 +118,11 @@ def _is_dump_of_rrd(lines: Sequence[str]) -> bool:
     return len(points) >= _FEWEST and all(map(_OF_RRD.fullmatch, points))
 
 
+def _is_spool_of_sqlplus(lines: Sequence[str]) -> bool:
+    """Whether SQL*Plus wrote what its screen showed: the statement behind its prompt, and pages of fixed width."""
+    return any(line.startswith("SQL> ") for line in lines[:5])
+
+
 def _is_universal_file(lines: Sequence[str]) -> bool:
     """Whether it is a file of sets between lines of -1, each with its number; a column of numbers is none."""
     told = len(lines) > _FEWEST and lines[0] == "-1" and _SET_OF_UFF.fullmatch(lines[1]) is not None
@@ -149,6 +154,12 @@ _KNOWN = (
         _is_dump_of_rrd,
         "what rrdtool fetch prints",
         "make a CSV of it: sed -E '/^ *$/d; 1s/^ */time,/; s/^([0-9]+): */\\1,/; s/ +/,/g' FILE > rrd.csv",
+    ),
+    (
+        _is_spool_of_sqlplus,
+        "what SQL*Plus showed on its screen, in pages of fixed width",
+        "spool it again as CSV: set markup csv on delimiter ';' quote off, set feedback off, set pagesize 0 and "
+        "set trimspool on before spool FILE.csv; or sqlplus -s -m 'csv on' USER @query.sql > FILE.csv",
     ),
     (
         _is_universal_file,
