@@ -430,6 +430,30 @@ def test_a_locked_test_that_cannot_be_predicted_is_listed_too() -> None:
     assert said.advice == "dZ: no calibration test gave turning a gain for 'D160'"
 
 
+@pytest.mark.parametrize(
+    ("effect", "by", "refused"),
+    [
+        ({"effect": "lag", "drivers": {"u": "T_table"}}, "test", True),
+        ({"effect": "lag", "drivers": {"u": "T_table"}}, "campaign", False),  # whose gain is known
+        ({"effect": "warm_start"}, "test", False),
+        ({"effect": "drift"}, "test", False),
+    ],
+)
+def test_what_is_driven_is_not_foretold_without_a_gain_for_the_test(
+    effect: dict[str, object], by: str, refused: bool
+) -> None:
+    """What nothing drives is of a test itself: another one is foretold without it."""
+    data = _by_tool()
+    known = {"effect": "spindle_bearing", "id": "spindle"}
+    fitted = fit_model(_spec("response: {axis: Z, at: tcp}", effects=[known, {**effect, "gain_by": by}]), data)
+    result = make_result(fitted, data, "m")
+    said = {c.name: c.advice for c in result.checks if c.name.startswith("not_predicted")}
+    why = f"dZ: no calibration test gave {effect['effect']} a gain for 'f'"
+    assert said.get("not_predicted:lab/f") == (why if refused else None)
+    assert ("f" in {s.test for s in result.scores}) is not refused
+    assert fitted.responses[0].can_predict(data.test("lab", "a"))
+
+
 def test_groups_need_something_to_group() -> None:
     for more in ({"groups": {"D25": "k1"}}, {"one_gain": True}):
         with pytest.raises(ValueError, match="needs 'gain_by'"):

@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.modelling.inputs.phases import phases
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
+from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Param
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData
@@ -104,7 +105,7 @@ class FittedTerm:
         return np.asarray(self.columns(test) @ gains, dtype=np.float64)
 
     def can_predict(self, test: TestData) -> bool:
-        """A gain a test (gain_by: test) is nothing to an unseen test; any other unknown group is a refusal."""
+        """Whether every driver is there, and a gain for the test's group."""
         return self.why_not(test) is None
 
     def why_not(self, test: TestData) -> str | None:
@@ -114,9 +115,15 @@ class FittedTerm:
         if not self.bound.has(test):
             needs = ", ".join(self.bound.binding_of(test).values()) or self.bound.lacks(test)
             return f"no driver for {self.id}" + (f" ({needs})" if needs else "")
-        if self.bound.spec.gains_by == ("test",) or self.values(test) is not None:
+        if self.values(test) is not None or self._is_of_the_test_itself():
             return None
         return f"no calibration test gave {self.id} a gain for '{self.bound.group(test)}'"
+
+    def _is_of_the_test_itself(self) -> bool:
+        """Whether each test has its own (gain_by: test) of what nothing logged drives: a slip, a drift, a warm start.
+        Another test is foretold without it; what is driven moves every test, by a gain that is not known there."""
+        driven = bool(self.effect.needs) or isinstance(self.effect, OfTests)
+        return self.bound.spec.gains_by == ("test",) and not driven
 
 
 @dataclass(frozen=True)
