@@ -43,6 +43,7 @@ def fit_named(store: Store, ref: str) -> FitResult:
         return fit_file(store, Path(ref))
     from thermodata.store.catalogue.models.renamed import told
 
+    refuse_several_campaigns(store, ref)
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
     spec = as_chosen(stored, data)
@@ -82,7 +83,7 @@ def of_which_version(store: Store, ref: str) -> str | None:
     from thermodata.view.lists.models import model_rows
 
     rows = model_rows(store)
-    if ref in {m.model for m in rows} or ref not in {m.name for m in rows}:
+    if ref in {m.model for m in rows} or ref.rpartition("/")[2] not in {m.name for m in rows}:
         return None
     own = find_model(store, ref)
     row = next(m for m in rows if m.model == own.model)
@@ -124,15 +125,33 @@ def name_taken_over(store: Store, model: str) -> str | None:
 
 def of_which_campaign(store: Store, ref: str) -> str | None:
     """Where models of several campaigns have a name: which it leads to, and the newest of the others; else None."""
+    if len(rows := _by_campaigns(store, ref)) < 2:
+        return None
+    (own, model), *others = rows
+    beside = "; ".join(f"{', '.join(campaigns)}: {other}" for campaigns, other in others)
+    return f"'{ref}' of {', '.join(own)}: {model}, the newest of that name; there are others, of {beside}"
+
+
+def refuse_several_campaigns(store: Store, ref: str) -> None:
+    """UsageError where models of several campaigns have a name: what writes, or looks at locked tests, guesses none."""
+    if len(rows := _by_campaigns(store, ref)) < 2:
+        return
+    ways = [f"{','.join(campaigns)}/{ref} ({model})" for campaigns, model in rows]
+    raise UsageError(
+        f"models of several campaigns are called '{ref}'",
+        expected=f"one of them: {listed(ways, 'or')}",
+        got=ref,
+        hint=f"write {','.join(rows[0][0])}/{ref}, or its id",
+    )
+
+
+def _by_campaigns(store: Store, ref: str) -> list[tuple[list[str], str]]:
+    """The campaigns of models of a name, with the newest model of each; of an id none."""
     with store.reader() as con:
         rows = con.execute(
-            "select array_to_string(campaigns, ', '), arg_max(model, (created_at, rowid)) from model where name = $1 "
+            "select campaigns, arg_max(model, (created_at, rowid)) from model where name = $1 "
             "and not exists (select 1 from model where model = $1) group by campaigns "
             "order by max((created_at, rowid)) desc",
             [ref],
         ).fetchall()
-    if len(rows) < 2:
-        return None
-    (own, model), *others = rows
-    beside = "; ".join(f"{campaign}: {other}" for campaign, other in others)
-    return f"'{ref}' of {own}: {model}, the newest of that name; there are others, of {beside}"
+    return [(list(campaigns), str(model)) for campaigns, model in rows]

@@ -13,6 +13,7 @@ from thermodata.notebook.courses import Contributions, Predictions
 from thermodata.notebook.fitted import Fit, stored_fit
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, html_table
+from thermodata.notebook.stale import heed_guess
 from thermodata.notebook.verdict import Verdict
 from thermodata.view.query.store_view import StoreView
 
@@ -49,10 +50,21 @@ class OpenStore(StoreView):
         return Fit(self.store, fit(self.store, model))
 
     def model(self, model: str | None = None) -> Fit:
-        """A version that the store holds: its id, a unique prefix of it, or its name (the newest of that name)."""
+        """A version that the store holds: its id, a unique prefix of it, its name (the newest of that name), or
+        'campaign/name'. A `GuessedModelWarning` where models of several campaigns have the name."""
         from thermodata.modelling.named import newest_model
 
+        if model is not None:
+            heed_guess(self.store, model)
         return stored_fit(self.store, newest_model(self.store) if model is None else model)
+
+    def _certain(self, model: str | None) -> Fit:
+        """The same, of what makes versions or looks at locked tests: UsageError for a name of several campaigns."""
+        from thermodata.modelling.named import refuse_several_campaigns
+
+        if model is not None:
+            refuse_several_campaigns(self.store, model)
+        return self.model(model)
 
     def models(self) -> Listed:
         """All versions, the newest first."""
@@ -66,7 +78,7 @@ class OpenStore(StoreView):
         """Which effect a model misses. response: of which, where it has several; by name, for what stands first is the
         model."""
         try:
-            fitted = self.model(model)
+            fitted = self._certain(model)
         except UsageError as error:
             if model is None or not any(model in row["responses"] for row in self.models()):
                 raise
@@ -80,11 +92,11 @@ class OpenStore(StoreView):
 
     def add(self, candidate: str | int, model: str | None = None, *, plain: bool = False) -> Fit:
         """A new version of a model with an effect more: a rank or id of its diagnosis, or any 'effect:channels'."""
-        return self.model(model).add(candidate, plain=plain)
+        return self._certain(model).add(candidate, plain=plain)
 
     def remove(self, effect: str, model: str | None = None) -> Fit:
         """A new version of a model without an effect."""
-        return self.model(model).remove(effect)
+        return self._certain(model).remove(effect)
 
     def compare(self, *models: str | Fit) -> Comparison:
         """Models on the data as they are now, test by test."""

@@ -1,4 +1,4 @@
-"""What commands say on the way of a model whose data changed since it was fitted, as Python says it."""
+"""What commands say on the way of a model, as Python says it: which it is, what changed, that it has no band."""
 
 from __future__ import annotations
 
@@ -17,6 +17,18 @@ class StaleModelWarning(UserWarning):
 
 class NoBandWarning(UserWarning):
     """Predictions have no band of 95 %."""
+
+
+class GuessedModelWarning(UserWarning):
+    """Models of several campaigns have the name: the newest of all is taken."""
+
+
+def heed_guess(store: Store, ref: str) -> None:
+    """A `GuessedModelWarning` that names the others, where models of several campaigns have the name."""
+    from thermodata.modelling.named import of_which_campaign
+
+    if (line := of_which_campaign(store, ref)) is not None:
+        warnings.warn(line, GuessedModelWarning, stacklevel=_callers() + 1)
 
 
 def heed_no_band(why_not: str | None) -> None:

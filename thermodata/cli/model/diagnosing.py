@@ -38,7 +38,7 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     from thermodata.diagnosis.run import diagnose, kept_diagnosis
 
     store = session.store()
-    ref = resolve(store, model, session)
+    ref = resolve(store, model, session, guess=False)
     _say_what_was_open(store, ref)
     found = kept_diagnosis(store, ref, response)
     if found is not None:
@@ -72,7 +72,7 @@ def confirm_command(session: Session, model: str, candidates: tuple[str, ...], r
     if len(candidates) != 1 or _is_model(store, candidates[0]):
         _answer_locked(session, store, (model, *candidates), response)
         return
-    ref = resolve(store, model)
+    ref = resolve(store, model, guess=False)
     _say_what_was_open(store, ref)
     result, known = confirm_choice(store, ref, candidates[0], response)
     if known:
@@ -99,7 +99,7 @@ def _answer_locked(session: Session, store: Store, refs: tuple[str, ...], respon
     from thermodata.modelling.on_locked import locked_errors
     from thermodata.report.text.locked_error import locked_text
 
-    models = [resolve(store, ref) for ref in refs]
+    models = [resolve(store, ref, guess=False) for ref in refs]
     asked = [locked_errors(store, ref, response) for ref in dict.fromkeys(models)]
     for ref in dict.fromkeys(models):
         _say_what_was_open(store, ref)

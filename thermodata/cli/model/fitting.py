@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 def fit_command(session: Session, model: str) -> None:
     """Fit MODEL and print its id.
 
-    MODEL is a model file, or a fitted model that is fitted again after its data changed.
+    MODEL is a model file, or a fitted model that is fitted again after its data changed: its id, or its name, as
+    CAMPAIGN/NAME where several campaigns have a model of that name.
     """
     from thermodata.cli.terminal.progress import counting_line
     from thermodata.modelling.named import fit_named, name_taken_over
@@ -60,7 +61,7 @@ def add_command(session: Session, model: str, candidate: tuple[str, ...], plain:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        parent = resolve(store, model)
+        parent = resolve(store, model, guess=False)
         result = add(store, parent, *candidate, plain=plain)
     _answer_version(session, result, result.parent or parent)
     worse = made_worse(result, response_units(store, result.responses, result.campaigns))
@@ -94,6 +95,6 @@ def remove_command(session: Session, model: str, effect: str) -> None:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        parent = resolve(store, model)
+        parent = resolve(store, model, guess=False)
         result = remove(store, parent, effect)
     _answer_version(session, result, result.parent or parent)

@@ -14,15 +14,24 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 
-def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
+def resolve(store: Store, ref: str | None, session: Session | None = None, *, guess: bool = True) -> str:
     """MODEL as the store knows it; where none is named, the one fitted last, and the session says which that is. Says
     on stderr where models of several campaigns have the name, or versions alike in number, where the data of the model
-    changed since its fit, and where calibration tests came after it: every command that uses one comes by here."""
-    from thermodata.modelling.named import model_named, newest_model, of_which_campaign, of_which_version
+    changed since its fit, and where calibration tests came after it: every command that uses one comes by here.
+    guess=False, for what makes versions or looks at locked tests: a name of several campaigns is refused."""
+    from thermodata.modelling.named import (
+        model_named,
+        newest_model,
+        of_which_campaign,
+        of_which_version,
+        refuse_several_campaigns,
+    )
     from thermodata.store.catalogue.models.fits import find_model
     from thermodata.store.catalogue.models.stale import came_after_line, stale_line
 
     found = newest_model(store) if ref is None else model_named(store, ref)
+    if not guess:
+        refuse_several_campaigns(store, found)
     stored = find_model(store, found)
     if ref is None and session is not None:
         session.say(f"of the model fitted last: {found} ({stored.name}, {', '.join(stored.spec.campaign_ids)})")

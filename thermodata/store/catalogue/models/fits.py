@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError, nearest
 from thermodata.schema.answers.result import FitResult
@@ -113,11 +113,12 @@ def _parameters(result: FitResult) -> list[dict[str, object]]:
 
 
 def find_model(store: Store, ref: str) -> StoredModel:
-    """A model by id, unique prefix of an id, or name (its newest version); UsageError where none or several fit."""
+    """A model by id, unique prefix of an id, name (its newest version), or 'campaign/name'; UsageError where none or
+    several fit."""
     with store.reader() as con:
-        listed = fetch(con, "select model, name from model order by created_at desc, model")
+        listed = fetch(con, "select model, name, campaigns from model order by created_at desc, model")
         ids = [r["model"] for r in listed]
-        named = [r["model"] for r in listed if r["name"] == ref]
+        named = _of_name(listed, ref)
         begun = [m for m in ids if m.startswith(ref)] if ref else []
         if ref in ids:
             chosen = ref
@@ -142,6 +143,17 @@ def find_model(store: Store, ref: str) -> StoredModel:
                 hint=f"did you mean '{close}'?" if close else _other_way(names),
             )
         return _stored(con, chosen)
+
+
+def _of_name(rows: Sequence[Mapping[str, Any]], ref: str) -> list[str]:
+    """Ids of the models of a name, or of 'campaign/name' ('one,other/name' of a model of both), in the order of rows.
+    Of a campaign that models have with others too, those of it alone come first."""
+    if plain := [r["model"] for r in rows if r["name"] == ref]:
+        return plain
+    of, _, name = ref.rpartition("/")
+    wanted = {c.strip() for c in of.split(",")} if of else set()
+    having = [r for r in rows if wanted and r["name"] == name and wanted <= set(r["campaigns"])]
+    return [r["model"] for r in sorted(having, key=lambda r: set(r["campaigns"]) != wanted)]
 
 
 def _other_way(names: Sequence[str]) -> str:
