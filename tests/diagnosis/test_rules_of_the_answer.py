@@ -20,6 +20,7 @@ from thermodata.diagnosis.locked.confirm import Confirmation, Shape
 from thermodata.diagnosis.question import responses
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.sound import Sound
+from thermodata.diagnosis.tell.candidate import told as told_module
 from thermodata.diagnosis.unlogged import unexplained
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, Verdict
@@ -484,6 +485,24 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, nothing("refine", member(name, "a mode")), ranked=(less, name))
         assert [(c.effect, c.probability) for c in found.candidates] == [("twin", None), ("first", None)]
         assert found.candidates[1].why.endswith("not claimed: twin:T_a says the same of its channels by a name")
+
+    def test_a_name_that_is_told_as_its_lag_does_not_stop_at_itself(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """The rule that it breaks does: its probability."""
+        lag = replace(FIRST, candidate=replace(FIRST.candidate, family="generic"), evidence=30.0)
+        name = replace(TWIN, candidate=scored("twin").candidate, evidence=30.0)
+        errors = told_module.beside_the_model
+
+        def of_the_lag(s: Scored, investigation: Any) -> tuple[Scored, bool]:
+            return (lag, True) if s.candidate is name.candidate else errors(s, investigation)
+
+        monkeypatch.setattr(told_module, "beside_the_model", of_the_lag)
+        found = self.answered(monkeypatch, spec, nothing("unknown"), ranked=(lag, name))
+        why = {c.effect: c.why for c in found.candidates}
+        assert why["twin"].startswith("it is one equation with first:T_a and told as that: ")
+        assert why["twin"].endswith("not claimed: causes like it were right in 45 % of cases only (limit 65 %)")
+        assert why["first"].endswith("not claimed: twin:T_a says the same of its channels by a name")
 
     def test_the_likeliest_comes_first_of_what_is_not_claimed(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

@@ -56,7 +56,9 @@ def told_of(row: Row, with_probability: Sequence[Scored], outcome: Outcome) -> T
     by_name = None
     if judged is None:
         refining = [j.scored for j in judgement.refinements]
-        by_name = goes_by_name(one, with_probability) or reads_as(one, refining)
+        named = goes_by_name(one, with_probability) or reads_as(one, refining)
+        # what is told in the place of the row's own candidate goes by no other name than that
+        by_name = None if named is None or named.candidate is s.candidate else named
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     return Told(
         listed=s,
