@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.verdict.refined import told_with_errors
+from thermodata.report.verdict.refined import can_be_refined, to_add, told_with_errors
+from thermodata.schema.answers.candidate import Rung
 
 from ..answers import candidate, diagnosis
 
@@ -53,3 +54,40 @@ def test_of_several_each_is_told_by_where_it_acts() -> None:
     ]
     text = told_with_errors(diagnosis(*both, verdict="refine", rmse_um=1.76, named_rmse_um=1.75))
     assert "where they act the error falls (mode 2.00 -> 1.00 um, lead 2.00 -> 0.500 um), their size" in text
+
+
+@pytest.mark.parametrize(
+    ("left", "fall", "said"),
+    [
+        (
+            (0.939, 0.938),
+            -0.08,
+            "mode (T) goes with what is left, but left-out tests are foretold hardly better (0.939 -> 0.938 um, where "
+            "it acts 0.730 -> 0.760 um) with it, so adding it is not advised",
+        ),
+        (
+            (1.00, 1.02),
+            -0.08,
+            "mode (T) goes with what is left, but left-out tests are foretold no better (1.00 -> 1.02 um) with it, "
+            "so adding it is not advised",
+        ),
+        (
+            (1.00, 0.949),
+            -0.08,
+            "what the model has can be refined by mode (T), error on left-out tests 1.00 -> 0.949 um",
+        ),
+        ((1.00, 1.02), 0.01, "what the model has can be refined by mode (T), error on left-out tests (falls where it "),
+        (
+            (1.00, 0.999),
+            None,
+            "what the model has can be refined by mode (T), error on left-out tests 1.00 -> 0.999 um",
+        ),
+    ],
+)
+def test_what_lets_no_error_fall_is_offered_to_nobody(left: tuple[float, float], fall: float | None, said: str) -> None:
+    rung = Rung(name="fall", asks="", value=fall, limit=0.3, unit="1", at="least", holds=False)
+    errors = {"rmse_um_before": left[0], "rmse_um_after": left[1], "acting_um_before": 0.73, "acting_um_after": 0.76}
+    mode = candidate("mode:T", refinement=True, rungs=[] if fall is None else [rung], **errors)
+    found = diagnosis(mode, verdict="refine", rmse_um=left[0], named_rmse_um=left[1])
+    assert told_with_errors(found).startswith(said)
+    assert bool(to_add(found)) is bool(can_be_refined(found)) is said.startswith("what the model has")

@@ -103,6 +103,15 @@ def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
     fresh = [one.model_copy(update=other), *(c for c in found.candidates if c is not one)]
     save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
     assert ">Add gain_by:lag,conditions.tool …</a>" in client_of(lab, write=True)[0].get("/missing").text
+    # what lets no error fall has no button of its own
+    errors = {"rmse_um_before": 1.0, "rmse_um_after": 0.999, "acting_um_before": 0.5, "acting_um_after": 0.6}
+    rungs = [r.model_copy(update={"value": -0.2, "holds": False}) if r.name == "fall" else r for r in one.rungs]
+    fresh[0] = fresh[0].model_copy(update={**errors, "rungs": rungs})
+    save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
+    text = client_of(lab, write=True)[0].get("/missing").text
+    assert ">Add gain_by:lag,conditions.tool …</a>" not in text
+    assert "Left-out tests are foretold hardly better (1.00" in text
+    assert "so adding it is not advised.</p>" in text
 
 
 def test_a_slip_that_was_told_is_taken_out_by_a_click(lab: Path) -> None:

@@ -17,6 +17,7 @@ from thermodata.report.page.headline import capital
 from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
+from thermodata.report.verdict.refined import against_adding
 from thermodata.report.verdict.verdict import claims_of, explainable, told, verdict_sentence
 from thermodata.report.words.numbers import heat_lines, in_unit, number
 from thermodata.report.words.of_response import of_response, worst_of
@@ -132,6 +133,7 @@ def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
         "equivalents": {e for c in claims for e in c.equivalent},
         "rivals": [c for c in found.candidates if c not in shown],
         "added": _added(found, model),
+        "against": {c.id: in_unit(against_adding(c), unit) for c in shown if c.refinement},
         "together": claims if len(claims) > 1 else [],
     }
 
