@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.verdict.candidate_errors import left_out_errors
 from thermodata.report.verdict.refined import can_be_refined, to_add, told_with_errors
-from thermodata.schema.answers.candidate import Rung
+from thermodata.schema.answers.candidate import LeftOut, Rung
 
 from ..answers import candidate, diagnosis
 
@@ -91,3 +93,24 @@ def test_what_lets_no_error_fall_is_offered_to_nobody(left: tuple[float, float],
     found = diagnosis(mode, verdict="refine", rmse_um=left[0], named_rmse_um=left[1])
     assert told_with_errors(found).startswith(said)
     assert bool(to_add(found)) is bool(can_be_refined(found)) is said.startswith("what the model has")
+
+
+@pytest.mark.parametrize(
+    ("tests", "said"),
+    [
+        ("abc", "error on left-out tests 1.76 -> 1.75 um"),
+        ("aabb", "error on left-out parts of 2 tests 1.76 -> 1.75 um"),
+        ("aaa", "error on left-out parts of 1 test 1.76 -> 1.75 um"),
+        ("", "error on left-out tests 1.76 -> 1.75 um"),
+    ],
+)
+def test_parts_of_tests_are_no_tests(tests: str, said: str) -> None:
+    parts = [
+        LeftOut(campaign="c", test=t, from_s=0.0, to_s=1.0, acts=True, rmse_um_before=1.76, rmse_um_after=1.75)
+        for t in tests
+    ]
+    one = candidate("mode:T", claimed=True, left_out=parts)
+    assert left_out_errors([one], 1.76, 1.75) == said
+    text = diagnosis_text(diagnosis(one, rmse_um=1.76, named_rmse_um=1.75))
+    assert said in text
+    assert ("left-out tests" in text.partition("\nleft-out: ")[0]) is ("parts" not in said)

@@ -9,7 +9,7 @@ from thermodata.report.text.clauses import clauses, in_lines
 from thermodata.report.text.fit import spots_text
 from thermodata.report.text.parameters import parameters_text
 from thermodata.report.text.table import table
-from thermodata.report.verdict.candidate_errors import from_fitted
+from thermodata.report.verdict.candidate_errors import from_fitted, left_out_tests
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.left_over import in_parts, noise_words
 from thermodata.report.verdict.log_faults import log_faults
@@ -222,7 +222,8 @@ def _opened_for(found: Diagnosis) -> str:
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person: the verdict, a clause a line, its figures, and what they rest on."""
-    of = "as it is fitted the model leaves" if found.verdict == "not_testable" else "error on left-out tests"
+    on = left_out_tests(found.candidates)
+    of = "as it is fitted the model leaves" if found.verdict == "not_testable" else f"error on {on}"
     left = "" if found.rmse_um is None else f"{of} {number(found.rmse_um)} um"
     errors = ", ".join(filter(None, [left, _on_locked(found)]))
     figures = filter(None, [errors, noise_words(found), explainable(found)])

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words.numbers import number
-from thermodata.schema.words.sentences import listed
+from thermodata.schema.words.sentences import counted, listed
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
@@ -23,11 +23,18 @@ OTHERWISE = 1.5
 """Of locked tests: a share that is left as scored, so many times that of the shape, is told with the latter."""
 
 
+def left_out_tests(some: Sequence[Candidate]) -> str:
+    """'left-out tests', or 'left-out parts of 2 tests' where these are too few to leave one out whole."""
+    parts = next((c.left_out for c in some if c.left_out), [])
+    tests = len({(p.campaign, p.test) for p in parts})
+    return "left-out tests" if tests == len(parts) else f"left-out parts of {counted(tests, 'test')}"
+
+
 def left_out_errors(some: Sequence[Candidate], left: float | None, together: float | None = None) -> str:
     """Of the user's own model, and with all of some added. left: the error of the former; together: of the latter. In
     answers of older versions, which have none of these, what each gives beside the others."""
     if left is not None and together is not None:
-        return _from_to(f"error on left-out tests{_all_of(some)}", some, left, together)
+        return _from_to(f"error on {left_out_tests(some)}{_all_of(some)}", some, left, together)
     return _each_beside(some, left)
 
 
@@ -36,17 +43,18 @@ def _all_of(some: Sequence[Candidate]) -> str:
 
 
 def _each_beside(some: Sequence[Candidate], left: float | None) -> str:
+    error = f"error on {left_out_tests(some)}"
     if len(some) == 1:
         others = listed(beside(some[0], left))
-        return _of_one("error on left-out tests" + (f" beside {others}:" if others else ""), some[0])
+        return _of_one(error + (f" beside {others}:" if others else ""), some[0])
     ids = {c.id for c in some}
     if all(set(beside(c, left)) == ids - {c.id} for c in some):
         each = [_of_one(c.effect, c) for c in some]
         apart = len({number(c.rmse_um_after) for c in some}) > 1
         turns = " (fitted in turn, the others as they stand, so these end apart)" if apart else ""
-        return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}{turns}"
+        return f"{error}, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}{turns}"
     each = [_of_one(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
-    return f"error on left-out tests: {', '.join(each)}"
+    return f"{error}: {', '.join(each)}"
 
 
 def _beside_or_alone(others: Sequence[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from thermodata.report.verdict.candidate_errors import but_for_one_test
+from thermodata.report.verdict.candidate_errors import but_for_one_test, left_out_tests
 from thermodata.report.verdict.could_hide import may_act_instead
 from thermodata.report.verdict.refined import named
 from thermodata.report.verdict.twins import named_twins
@@ -35,7 +35,7 @@ def left_over(found: Diagnosis) -> str:
     """What is left where nothing is missing: noise, or what is slower than noise and yet too little to ask about."""
     if found.rmse_um is None:
         return "too little is left to ask about"
-    left, as_fitted = f"{number(found.rmse_um)} um are left on left-out tests", otherwise(found)
+    left, as_fitted = f"{number(found.rmse_um)} um are left on {left_out_tests(found.candidates)}", otherwise(found)
     if found.noise_um is None:
         return f"{left}, too little to ask about{as_fitted}"
     noise = f"noise ({number(found.noise_um)} um{_between(found)})"
@@ -185,9 +185,9 @@ def offered(found: Diagnosis) -> str:
     freed = f" ({number(free)} um with these free to act otherwise, as errors of a claim are told)" if far else ""
     but = but_for_one_test([one], left).removeprefix(", and ") if left is not None else ""
     return (
-        f"as the model has its effects, one lag each, it leaves {number(left)} um on left-out tests{freed}, and "
-        f"{number(one.rmse_um_after)} um with {named(one)}{f' ({but})' if but else ''}{named_twins(one)}, another mode "
-        f"of them or a cause that they hide: add it, thermodata add {found.model[:8]} {one.rank}{more}"
+        f"as the model has its effects, one lag each, it leaves {number(left)} um on {left_out_tests([one])}"
+        f"{freed}, and {number(one.rmse_um_after)} um with {named(one)}{f' ({but})' if but else ''}{named_twins(one)}, "
+        f"another mode of them or a cause that they hide: add it, thermodata add {found.model[:8]} {one.rank}{more}"
     )
 
 
@@ -229,17 +229,17 @@ def _between(found: Diagnosis) -> str:
 def on_left_out(found: Diagnosis) -> str:
     """' on left-out tests (1.4 um of the response's 5.1)'. A left-out test is foretold by a model that the others
     fitted, so the error may be larger than the response itself: then it says so."""
-    left, response = found.rmse_um, found.response_um
+    left, response, tests = found.rmse_um, found.response_um, left_out_tests(found.candidates)
     if left is None:
         return ""
     if response is None:
-        return f" on left-out tests ({number(left)} um)"
+        return f" on {tests} ({number(left)} um)"
     if left > response:
         return (
-            f" on left-out tests ({number(left)} um, more than the response's {number(response)}: fitted to the other "
+            f" on {tests} ({number(left)} um, more than the response's {number(response)}: fitted to the other "
             "tests, the model foretells a test worse than none would)"
         )
-    return f" on left-out tests ({number(left)} um of the response's {number(response)})"
+    return f" on {tests} ({number(left)} um of the response's {number(response)})"
 
 
 def noise_words(found: Diagnosis) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from thermodata.report.verdict.candidate_errors import left_out_errors
+from thermodata.report.verdict.candidate_errors import left_out_errors, left_out_tests
 from thermodata.report.verdict.twins import named_twins
 from thermodata.report.words.numbers import number
 from thermodata.schema.words.sentences import listed
@@ -62,7 +62,8 @@ def told_with_errors(found: Diagnosis, advice: str = "") -> str:
         them = "it" if len(worth) == 1 else "them"
         before, together = found.rmse_um, found.named_rmse_um
         if _worse_together(found, worth):
-            ask = f"left-out tests are foretold worse with all of them ({number(before)} -> {number(together)} um)"
+            rise = f"{number(before)} -> {number(together)} um"
+            ask = f"{left_out_tests(worth)} are foretold worse with all of them ({rise})"
             parts.append(f"{can_be_refined(found)}, but {ask}: add one, and ask again")
         else:
             errors = _by_where_they_act(worth, before, together) or f", {left_out_errors(worth, before, together)}"
@@ -82,8 +83,8 @@ def _by_where_they_act(worth: Sequence[Candidate], before: float | None, togethe
     acts, its = ("it acts", "its") if len(worth) == 1 else ("they act", "their")
     return (
         f": where {acts} the error falls ({', '.join(each)}), {its} size foretold by the other tests"
-        f"{_and_on_locked(worth)}; all left-out tests ({number(before)} -> {number(together)} um) do not tell, for "
-        "there the effects of the model are foretold by the others, too"
+        f"{_and_on_locked(worth)}; all {left_out_tests(worth)} ({number(before)} -> {number(together)} um) do not "
+        "tell, for there the effects of the model are foretold by the others, too"
     )
 
 
@@ -124,7 +125,8 @@ def _rises_on_left_out(one: Candidate) -> str | None:
     if after < before and one.acting_um_before is not None and one.acting_um_after is not None:
         where = f", where it acts {number(one.acting_um_before)} -> {number(one.acting_um_after)} um"
     better = "hardly" if after < before else "no"
-    return f"left-out tests are foretold {better} better ({number(before)} -> {number(after)} um{beside}{where})"
+    of = left_out_tests([one])
+    return f"{of} are foretold {better} better ({number(before)} -> {number(after)} um{beside}{where})"
 
 
 def _rises_on_locked(one: Candidate) -> str | None:
