@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect import all_effects
-from thermodata.effect.places import can_bind
+from thermodata.effect.places import can_bind, in_vocabulary
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.testing import effect as kit
@@ -178,6 +178,14 @@ class KelvinForgotten(Good):
     gains = (Gain("gain", "um", (0, 10), "any", "k"),)
 
 
+class KelvinOfMillimetres(Good):
+    gains = (Gain("gain", "mm/K", (0, 10), "any", "k"),)
+
+
+class OfNoPlace(Good):
+    needs = (Need("u", "temperature", ("spindle.bearing.frnt",)),)
+
+
 class Promises(Good):
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[str, ...]:
         return ("lag(u, 60) * a",)
@@ -237,6 +245,8 @@ def test_an_effect_need_not_be_linear_in_what_drives_it(sound: type[Good]) -> No
         (StopsInGaps, kit.a_gap_that_was_filled_right_changes_nothing),
         (NotLinearInKelvin, kit.its_gains_have_the_units_of_what_drives_them),
         (LinearThatSaysSquare, kit.its_gains_have_the_units_of_what_drives_them),
+        (KelvinOfMillimetres, kit.its_units_are_those_of_the_library),
+        (OfNoPlace, kit.it_names_places_of_the_vocabulary),
         (KelvinForgotten, kit.its_gains_have_the_units_of_what_drives_them),
         (Promises, kit.its_law_is_its_basis),
         (LastDigit, kit.its_bases_are_its_basis),
@@ -256,6 +266,56 @@ def test_a_place_that_can_be_is_no_fault(place: str) -> None:
 @pytest.mark.parametrize("place", ["", ".", "bed.", "bedd..x", "axis.{a", "axis.{}.nut", "bed?.left", "bed left"])
 def test_a_place_where_nothing_can_stand_is_told(place: str) -> None:
     assert not can_bind(place)
+
+
+@pytest.mark.parametrize("unit", ["um/K", "um/K2", "um", "um/h", "um/K/min"])
+def test_a_gain_is_in_um_by_what_drives_it(unit: str) -> None:
+    assert not _units(gain=unit)
+
+
+@pytest.mark.parametrize(
+    "unit", ["mm/K", "um/rpm", "um/degC", "banana", "", "um/", "um/banana", "K", "um/s", "1", "um/u", "um/%"]
+)
+def test_a_gain_in_another_unit_is_told(unit: str) -> None:
+    (why,) = _units(gain=unit)
+    assert why == f"'gain' is in {unit!r}: it is um, or um by K, min, h"
+
+
+@pytest.mark.parametrize("unit", ["min", "1", "%", "K", "m/min", "Hz", "1/K", "rpm"])
+def test_a_parameter_is_in_a_unit_of_the_library(unit: str) -> None:
+    assert not _units(param=unit)
+
+
+@pytest.mark.parametrize("unit", ["s", "h", "banana", "", "mm/s", "degF"])
+def test_a_parameter_in_another_unit_is_told(unit: str) -> None:
+    (why,) = _units(param=unit)
+    assert why.startswith(f"'a' is in {unit!r}: a time is in min, a number in 1, others in ")
+
+
+def test_a_gain_is_by_the_metre_of_an_axis_and_by_the_unit_of_anything() -> None:
+    of_an_axis = (Need("u", "temperature"), Need("x", "position"))
+    assert not _units(gain="um/m/K", needs=of_an_axis)
+    assert not _units(gain="um/u", needs=(Need("u", "*"),))
+    assert _units(gain="um/m/K")
+
+
+def _units(gain: str = "um/K", param: str = "1", needs: tuple[Need, ...] = Good.needs) -> list[str]:
+    class One(Good):
+        gains = (Gain("gain", gain, (0, 10), "any", "k"),)
+        params = (Param("a", param, 3.0, 1.0, 9.0, "of it"),)
+
+    One.needs = needs
+    return list(kit.its_units_are_those_of_the_library(One()))
+
+
+@pytest.mark.parametrize("place", ["bed", "axis.{a}.nut", "{s}spindle.bearing?", "hall.*", "table.d1500", "rotary.{a}"])
+def test_a_place_of_the_vocabulary_is_no_fault(place: str) -> None:
+    assert in_vocabulary(place)
+
+
+@pytest.mark.parametrize("place", ["moon", "axis.{a}.nutt", "{s}spindel", "spindle.moon", "rotary.x"])
+def test_a_place_that_no_campaign_has_is_told(place: str) -> None:
+    assert not in_vocabulary(place)
 
 
 def test_an_effect_that_wants_two_samples_is_told_that_it_was_asked_with_one() -> None:

@@ -11,6 +11,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from thermodata.schema.words.places import every_place, is_known
+
 _VARIABLE = re.compile(r"^\{(\w+)\}(\w*)$")
 _OR_WHOLE = "?"
 _PART = re.compile(r"\*|\{\w+\}\w*|\w[\w-]*")
@@ -42,6 +44,12 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
 def can_bind(pattern: str) -> bool:
     """Whether there can be a place that it holds: each part is a word, `*` or a variable, and none is empty."""
     return all(_PART.fullmatch(part) for part in part_alone(pattern).split("."))
+
+
+def in_vocabulary(pattern: str) -> bool:
+    """Whether a place of the vocabulary lies at or below it."""
+    alone = part_alone(pattern)
+    return is_known(alone) or any(match(alone, place) is not None for place in every_place())
 
 
 def holds(place: str, other: str | None) -> bool:

@@ -19,13 +19,17 @@ import numpy as np
 from thermodata.effect.guard import guarded_bases
 from thermodata.effect.law import with_parameters
 from thermodata.effect.law_run import evaluate
-from thermodata.effect.places import can_bind
+from thermodata.effect.places import can_bind, in_vocabulary, part_alone
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Effect, Float1D
 from thermodata.schema.files.campaign import FEEDBACKS
 from thermodata.schema.units.quantity import QUANTITIES
+from thermodata.schema.words.places import nearest_place
 from thermodata.testing.effect_drivers import FINER, STEP_S, on_finer_grid, shortened, start, variants
-from thermodata.testing.effect_units import its_gains_have_the_units_of_what_drives_them
+from thermodata.testing.effect_units import (
+    its_gains_have_the_units_of_what_drives_them,
+    its_units_are_those_of_the_library,
+)
 
 # of a column's rms: what switches is a ramp of one sample on either grid
 GRID_TOLERANCE = 0.1
@@ -106,6 +110,15 @@ def it_names_places_that_can_be(effect: Effect) -> Iterator[str]:
         for place in need.places:
             if not can_bind(place):
                 yield f"{need.role}: no channel stands at {place!r}; a part is a word, '*' or '{{a}}': axis.{{a}}.nut"
+
+
+def it_names_places_of_the_vocabulary(effect: Effect) -> Iterator[str]:
+    for need in effect.needs:
+        for place in need.places:
+            if can_bind(place) and not in_vocabulary(place):
+                close = nearest_place(part_alone(place))
+                known = f"did you mean {close!r}?" if close else "thermodata.schema.words.places has those that are"
+                yield f"{need.role}: {place!r} is no place of the vocabulary; {known}"
 
 
 def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
@@ -254,6 +267,7 @@ RULES: tuple[Rule, ...] = (
     its_names_are_unique,
     it_needs_quantities_that_exist,
     it_names_places_that_can_be,
+    it_names_places_of_the_vocabulary,
     its_bounds_hold_its_start,
     it_gives_one_column_a_gain,
     it_is_finite_at_every_bound,
@@ -266,5 +280,6 @@ RULES: tuple[Rule, ...] = (
     its_bases_are_its_basis,
     it_says_the_same_on_any_grid,
     a_gap_that_was_filled_right_changes_nothing,
+    its_units_are_those_of_the_library,
     its_gains_have_the_units_of_what_drives_them,
 )

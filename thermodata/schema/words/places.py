@@ -222,6 +222,15 @@ def is_known(place: str) -> bool:
     return len(letter) == 1 and letter in letters and f"{part}.*{'.' + below if below else ''}" in PLACES
 
 
+def every_place() -> list[str]:
+    """All places of the vocabulary, those of axes with each letter."""
+    return [place.replace("*", letter) for place in PLACES for letter in _letters(place)]
+
+
+def _letters(place: str) -> str:
+    return _LETTERS[place.partition(".")[0]] if "*" in place else "-"
+
+
 def nearest_place(place: str) -> str | None:
     """The place that was meant by one that is not known: a part that is spelt alike, or else what the unknown part is
     of ('hall.air' is no 'hall.door', but of the 'hall'); None where none is near. Of the axis that was named."""
