@@ -25,6 +25,29 @@ def test_tests_are_found_by_words_role_and_kind(campaign: Path, say: Callable[..
     assert len(found()) == 4
 
 
+def test_tests_and_campaigns_are_found_by_their_machine(campaign: Path, say: Callable[..., Any]) -> None:
+    store = ("--store", campaign / "thermodata.store")
+    rows = json.loads(say(*store, "tests", "--json").out)
+    (machine,) = {row["machine"] for row in rows}
+    assert machine
+    for words in (("--find", machine.lower()), ("--machine", machine)):
+        assert len(json.loads(say(*store, "tests", *words, "--json").out)) == len(rows)
+    (one,) = json.loads(say(*store, "campaigns", "--machine", machine, "--json").out)
+    assert (one["campaign"], one["machines"], one["tests"], one["locked"]) == ("small", [machine], len(rows), 1)
+    shown = say(*store, "campaigns").out
+    for told in (machine, "small", "campaign.yaml"):
+        assert told in shown
+    for command in ("tests", "campaigns"):
+        said = say(*store, command, "--machine", machine + "x")
+        assert (said.code, f"did you mean '{machine}'?" in said.err) == (2, True)
+
+
+def test_that_nothing_is_found_is_said_with_where_it_was_looked_for(campaign: Path, say: Callable[..., Any]) -> None:
+    said = say("--store", campaign / "thermodata.store", "tests", "--find", "SB-42")
+    assert said.code == 0
+    assert "none of 4 tests is such a one: all of 'SB-42' would have to stand in its campaign, name, kind" in said.err
+
+
 @pytest.mark.parametrize(("option", "word", "meant"), [("--role", "lokced", "locked"), ("--kind", "mixd", "mixed")])
 def test_a_role_or_kind_that_there_is_not_is_refused(
     campaign: Path, say: Callable[..., Any], option: str, word: str, meant: str

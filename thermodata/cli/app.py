@@ -32,6 +32,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "ingest": "start.ingest",
     },
     "Look": {
+        "campaigns": "look.campaigns",
         "tests": "look.look",
         "channels": "look.look",
         "calibrations": "look.look",

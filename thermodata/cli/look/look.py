@@ -14,11 +14,18 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.report.collected.records import records, written_conditions
 from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
+from thermodata.schema.words.sentences import counted
 from thermodata.view.lists.overview import Asked, find_tests
 
 campaign_option = click.option(
     "--campaign", "-c", metavar="CAMPAIGN", help="Only this campaign.", shell_complete=completing.campaigns
 )
+
+machine_option = click.option(
+    "--machine", metavar="MACHINE", help="Only of this machine, as its campaign file calls it (machine: {id: ...})."
+)
+_LOOKED_IN = "campaign, name, kind, role, machine, conditions or notes"
+_TESTS = "select * from (select t.*, m.machine from test t left join machine m using (campaign, test))"
 
 
 def rows_of(session: Session, query: str, campaign: str | None, order: str) -> list[dict[str, Any]]:
@@ -62,15 +69,23 @@ def _refuse_unknown(role: str | None, kind: str | None) -> None:
 @click.option(
     "--kind", metavar="KIND", help="Only of this kind: spindle, linear_axis, etve, ... as the campaign file says."
 )
-@click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
-def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
-    """List the tests: kind, role, length and conditions."""
+@machine_option
+@click.option("--find", metavar="WORDS", help=f"Only where all WORDS stand in {_LOOKED_IN}.")
+def tests_command(
+    session: Session, campaign: str | None, role: str | None, kind: str | None, machine: str | None, find: str | None
+) -> None:
+    """List the tests: machine, kind, role, length and conditions."""
     if role or kind:
         _refuse_unknown(role, kind)
-    rows = rows_of(session, "select * from test", campaign, "campaign, test")
-    if role or kind or find:
-        asked = Asked(find or "", campaign or "", role or "", kind or "", per_page=max(1, len(rows)))
+    rows = rows_of(session, _TESTS, campaign, "campaign, test")
+    if role or kind or find or machine:
+        asked = Asked(
+            find or "", campaign or "", role or "", kind or "", machine=machine or "", per_page=max(1, len(rows))
+        )
         found = {(r.campaign, r.test) for r in find_tests(session.store(), asked).rows}
+        if rows and not found:
+            words = f": all of '{find}' would have to stand in its {_LOOKED_IN}" if find else ""
+            session.say(f"none of {counted(len(rows), 'test')} is such a one{words}")
         rows = [row for row in rows if (row["campaign"], row["test"]) in found]
     specs = records(session.view(), "select spec from campaign")
     written = written_conditions(row["spec"] for row in specs)
@@ -92,6 +107,7 @@ def tests_command(session: Session, campaign: str | None, role: str | None, kind
                 ("test", "test"),
                 ("kind", "kind"),
                 ("role", "role"),
+                *([("machine", "machine")] if any(row["machine"] for row in shown) else []),
                 ("begin", "start (UTC)"),
                 ("length", "length"),
                 ("conditions", "conditions"),

@@ -60,7 +60,7 @@ said as (
     select c.campaign, t.value->>'$.id' as test, t.value->'$.conditions' as conditions
     from campaign c, json_each(c.spec, '$.tests') t),
 listed as (
-    select t.rowid as place, t.campaign, t.test, t.kind, t.role, t.start, t.duration_s,
+    select t.rowid as place, t.campaign, t.test, t.kind, t.role, mc.machine, t.start, t.duration_s,
            coalesce(said.conditions, t.conditions) as conditions, t.notes,
            s.samples, coalesce(s.streams, 0) as streams,
            case when s.samples > 0 then 1 - least(coalesce(r.n, 0) / s.samples, 1) end as valid,
@@ -70,14 +70,15 @@ listed as (
     left join ruled_out r on (r.campaign, r.test) = (t.campaign, t.test)
     left join counting m on (m.campaign, m.test) = (t.campaign, t.test)
     left join errors e on (e.campaign, e.test) = (t.campaign, t.test)
+    left join machine mc on (mc.campaign, mc.test) = (t.campaign, t.test)
     left join said on (said.campaign, said.test) = (t.campaign, t.test))
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What is looked for. find: words that all stand in a test's name, kind, role, conditions or notes. model: whose
-    errors are shown beside the tests. page: from 1."""
+    """What is looked for. find: words that all stand in a test's campaign, name, kind, role, machine, conditions or
+    notes. model: whose errors are shown beside the tests. page: from 1."""
 
     find: str = ""
     campaign: str = ""
@@ -87,6 +88,7 @@ class Asked:
     sort: Sort = "file"
     page: int = 1
     per_page: int = 50
+    machine: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,11 +115,13 @@ class TestRow:
     rmse_um: float | None
     fit: float | None
     model_role: str | None
+    machine: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class TestList:
-    """One page. total: of all that was found; all_tests: of the store. campaigns, roles, kinds: with their counts."""
+    """One page. total: of all that was found; all_tests: of the store. campaigns, roles, kinds, machines: with their
+    counts."""
 
     __test__ = False
     rows: tuple[TestRow, ...]
@@ -128,17 +132,20 @@ class TestList:
     campaigns: dict[str, int] = field(default_factory=dict)
     roles: dict[str, int] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)
+    machines: dict[str, int] = field(default_factory=dict)
 
 
 def find_tests(store: Store, asked: Asked) -> TestList:
-    """The tests that are asked for, in the asked order. UsageError for a campaign or an order that there is not; a page
-    beyond the last one is the last one."""
+    """The tests that are asked for, in the asked order. UsageError for a campaign, a machine or an order that there is
+    not; a page beyond the last one is the last one."""
     if asked.sort not in SORTS:
         raise unknown_name("order", asked.sort, SORTS)
     with store.reader() as con:
         counts = {name: _counts(con, name) for name in ("campaign", "role", "kind")}
-        if asked.campaign and asked.campaign not in counts["campaign"]:
-            raise unknown_name("campaign", asked.campaign, list(counts["campaign"]))
+        counts["machine"] = _counts(con, "machine", of="machine")
+        for name in ("campaign", "machine"):
+            if (wanted := getattr(asked, name)) and wanted not in counts[name]:
+                raise unknown_name(name, wanted, list(counts[name]))
         where, params = _condition(asked)
         total_row = con.execute(f"{_TESTS} select count(*) from listed where {where}", params).fetchone()
         total = int(total_row[0]) if total_row else 0
@@ -160,21 +167,22 @@ def find_tests(store: Store, asked: Asked) -> TestList:
         campaigns=counts["campaign"],
         roles=counts["role"],
         kinds=counts["kind"],
+        machines=counts["machine"],
     )
 
 
-def _counts(con: duckdb.DuckDBPyConnection, column: str) -> dict[str, int]:
-    rows = con.execute(f"select {column}, count(*) from test group by 1 order by min(rowid)").fetchall()
+def _counts(con: duckdb.DuckDBPyConnection, column: str, of: str = "test") -> dict[str, int]:
+    rows = con.execute(f"select {column}, count(*) from {of} group by 1 order by min(rowid)").fetchall()
     return {str(name): int(n) for name, n in rows}
 
 
 def _condition(asked: Asked) -> tuple[str, dict[str, Any]]:
     parts, params = ["true"], {"model": asked.model}
-    for name in ("campaign", "role", "kind"):
+    for name in ("campaign", "role", "kind", "machine"):
         if value := getattr(asked, name):
             parts.append(f"{name} = ${name}")
             params[name] = value
-    text = "lower(concat_ws(' ', campaign, test, kind, replace(kind, '_', ' '), role, conditions, notes))"
+    text = "lower(concat_ws(' ', campaign, test, kind, replace(kind, '_', ' '), role, machine, conditions, notes))"
     for i, word in enumerate(asked.find.lower().split()[:20]):
         parts.append(f"contains({text}, $word{i})")
         params[f"word{i}"] = word
