@@ -7,6 +7,8 @@ from typing import Any
 
 import yaml
 
+from thermodata.errors import ThermodataError
+from thermodata.schema.files.load import load_model
 from thermodata.schema.files.model import Model
 from thermodata.store.base.files import safe_name, whole_file
 
@@ -20,14 +22,27 @@ def model_text(spec: Model) -> str:
     return "\n".join(lines) + "\n"
 
 
-def model_path(spec: Model, folder: Path) -> Path:
-    """Where its file is written."""
-    return folder / f"{safe_name(spec.name)}.yaml"
+def model_path(spec: Model, folder: Path, name: str | None = None) -> Path:
+    """Where its file is written: of its name, or another one. Where a model of other campaigns has that file, its own
+    come behind it: base_spring.yaml."""
+    path = folder / f"{safe_name(name or spec.name)}.yaml"
+    if name is not None or not _is_of_others(path, spec):
+        return path
+    return folder / f"{safe_name('_'.join([spec.name, *spec.campaign_ids]))}.yaml"
 
 
-def write_model(spec: Model, folder: Path) -> Path:
+def _is_of_others(path: Path, spec: Model) -> bool:
+    """Whether a file is that of a model of other campaigns."""
+    if not path.is_file():
+        return False
+    try:
+        return set(load_model(path).campaign_ids) != set(spec.campaign_ids)
+    except ThermodataError:
+        return False
+
+
+def write_model(spec: Model, path: Path) -> Path:
     """Writes it, whole or not at all."""
-    path = model_path(spec, folder)
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path, ".yaml") as part:
         part.write_text(model_text(spec), encoding="utf-8")

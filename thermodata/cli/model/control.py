@@ -54,7 +54,7 @@ def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
 )
 @click.option("--real", type=click.Choice(["real", "lreal"]), help="Width of numbers: 32 or 64 bits (st, scl: real).")
 @click.option("--response", metavar="CHANNEL", help="Which, of a model with several.")
-@click.option("--name", metavar="NAME", help="Of the program (default: model_response).")
+@click.option("--name", metavar="NAME", help="Of the program (default: model_response), or of the model file.")
 @click.option("--without", metavar="EFFECT,...", default="", help="Effects to leave out.")
 @click.option("--group", "groups", multiple=True, metavar="EFFECT=VALUE", help="Whose gain, where gain_by has several.")
 @click.option(
@@ -106,7 +106,7 @@ def model_command(
 
     store = session.store()
     if target == "yaml":
-        _model_file(session, store, resolve(store, model), out or Path(), force)
+        _model_file(session, store, resolve(store, model), (out or Path(), name), force)
         return
     loaded = load(store, resolve(store, model))
     stale = stale_line(store, loaded.identity)
@@ -160,15 +160,16 @@ def _program_text(loaded: Loaded, program: Program, written: Written) -> str:
     )
 
 
-def _model_file(session: Session, store: Store, model: str, folder: Path, force: bool) -> None:
-    """Writes a model's file, and answers."""
+def _model_file(session: Session, store: Store, model: str, to: tuple[Path, str | None], force: bool) -> None:
+    """Writes a model's file, and answers. to: the folder, and another name than the model's."""
     from thermodata.export.model_file import model_path, write_model
     from thermodata.store.catalogue.models.fits import find_model
     from thermodata.store.catalogue.models.stale import stale_line
 
     stored = find_model(store, model)
-    _refuse_to_replace([model_path(stored.spec, folder)], force)
-    written = str(write_model(stored.spec, folder))
+    path = model_path(stored.spec, *to)
+    _refuse_to_replace([path], force)
+    written = str(write_model(stored.spec, path))
     no_program = dict.fromkeys(("response", "cycle_s", "real", "inputs", "effects", "states", "limit"))
     no_program |= dict.fromkeys(("rate_per_min", "hold_s", "left_out"))
     payload = {
@@ -186,5 +187,7 @@ def _refuse_to_replace(paths: Sequence[Path], force: bool) -> None:
     there = [str(path) for path in paths if path.exists()]
     if there and not force:
         raise UsageError(
-            "the file exists", where=", ".join(there), hint="--force replaces it, --out DIR writes elsewhere"
+            "the file exists",
+            where=", ".join(there),
+            hint="--force replaces it, --out DIR writes elsewhere, --name NAME under another name",
         )
