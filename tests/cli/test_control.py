@@ -317,6 +317,13 @@ def test_the_model_file_of_a_version_is_the_same_model_again(say: Say, campaign:
     assert again["parameters"] == made["parameters"]
     program = json.loads(ask("model", "export", "baseline", "--to", "json", "-o", tmp_path, "--json").out)
     assert told.keys() == program.keys()
+    assert json.loads(ask(*words, "--name", "mine", "--json").out)["files"] == [str(tmp_path / "mine.yaml")]
+    # a file of that name of another campaign stays, and the campaign comes into the name
+    path = tmp_path / "baseline.yaml"
+    path.write_text(path.read_text().replace("campaign: small", "campaign: large"))
+    assert json.loads(ask(*words, "--json").out)["files"] == [str(tmp_path / "baseline_small.yaml")]
+    assert "campaign: large" in path.read_text()
+    assert "baseline_small.yaml" in say("--store", lab / "thermodata.store", *words).err
 
 
 # ---- show
@@ -338,7 +345,7 @@ def test_show_says_what_the_fit_found(ask: Say, monkeypatch: pytest.MonkeyPatch)
     assert residual["ljung_box"][0]["p_value"] < 1e-3  # the nut that the model lacks
     assert [s["state"].partition(":")[0] for s in shown["states"]] == ["spindle_bearing"]
     text = ask("show", "baseline").out
-    for told in ("poles z", "gain at rest", "Ljung-Box", "residual against", "um/K"):
+    for told in ("poles z", "gain at rest", "Ljung-Box", "residual against", "um/K", "0 by the fit: gains are solved"):
         assert told in text
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from thermodata.chart import effect_styles
 from thermodata.modelling.seen.as_system import Seen
-from thermodata.modelling.seen.residual_tests import Against, LjungBox
+from thermodata.modelling.seen.residual_tests import WHY_BY_THE_FIT, Against, LjungBox
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D
@@ -47,7 +47,8 @@ class ResidualTests(Shown):
                 for a in seen.states
             ]
             heads = [("state", "residual against"), ("r", "correlation"), ("slope", "slope"), ("unit", "unit")]
-            made.append((f"{name}: states", states, heads))
+            by_the_fit = any(round(a.correlation, 2) == 0.0 for a in seen.states)
+            made.append((f"{name}: states" + (f" ({WHY_BY_THE_FIT})" if by_the_fit else ""), states, heads))
         return [(title, rows, heads) for title, rows, heads in made if rows]
 
     def summary(self) -> str:

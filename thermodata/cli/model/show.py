@@ -210,6 +210,8 @@ def _coefficients(p: SeenPath) -> str:
 
 
 def _residual(seen: Seen) -> str:
+    from thermodata.modelling.seen.residual_tests import BY_THE_FIT, WHY_BY_THE_FIT
+
     step = seen.step_s
     marks = [
         k for k in (1, round(600 / step), round(3600 / step), round(4 * 3600 / step)) if 0 < k < len(seen.correlation)
@@ -223,13 +225,18 @@ def _residual(seen: Seen) -> str:
     if seen.states:
         rows = [{"state": s.state, "r": correlation_text(s.correlation), "slope": _slope(seen, s)} for s in seen.states]
         lines += ["", table(rows, [("state", "residual against"), ("r", "correlation"), ("slope", "slope")], widest=80)]
+        if any(float(row["r"]) == 0.0 for row in rows):
+            lines.append(f"{BY_THE_FIT}: {WHY_BY_THE_FIT}")
     return "\n".join(lines)
 
 
 def _slope(seen: Seen, state: Against) -> str:
     """Of what hangs together not at all, none: what rounding leaves of it is no number to read."""
-    slope = 0.0 if float(correlation_text(state.correlation)) == 0.0 else state.slope
-    return f"{number(slope)} {_per(seen.unit, state.unit)}"
+    from thermodata.modelling.seen.residual_tests import BY_THE_FIT
+
+    if float(correlation_text(state.correlation)) == 0.0:
+        return BY_THE_FIT
+    return f"{number(state.slope)} {_per(seen.unit, state.unit)}"
 
 
 def _per(unit: str, over: str) -> str:

@@ -11,6 +11,11 @@ from thermodata.plugin import Float1D
 
 BINS = 12
 FEWEST = 20  # samples of a bin's mean
+BY_THE_FIT = "0 by the fit"
+WHY_BY_THE_FIT = (
+    "gains are solved by least squares, so no residual goes with the state of one that is free, whatever its time "
+    "constant; that of one that is held, or has two lags, tells"
+)
 
 
 @dataclass(frozen=True)
