@@ -47,6 +47,7 @@ def test_offsets_and_the_share_of_the_moves_are_told(
     for text in texts:
         assert "offset" in text
         assert "-0.12" in text
+        assert "(k=1)" in text, "one standard uncertainty, where predict has 95 %"
         assert ("± of jump: mostly move_uncertainty, 1 um a move" in text) == (mostly is not None)
         assert "passed" in text, "of a check nobody asks yes or no"
     rows = {c["calibration"]: c for c in json.loads(say("--store", store, "calibrations", "--json").out)}

@@ -91,6 +91,14 @@ def test_every_error_of_a_page_stands_under_its_word_and_one_heads_it(data: Repo
     assert text.count('<tr class="head">') == 1
 
 
+def test_on_a_narrow_screen_an_error_keeps_its_unit(data: ReportData, blind: ReportData) -> None:
+    """There a cell has its own label, for the heads of the table are gone."""
+    labels = re.findall(r'data-label="([^"]*)"', body(render(data)) + body(render(blind)))
+    errors = {one for one in labels if one.split(" ")[0] in ("RMSE", "before", "after", "max", "PTP")}
+    assert {"RMSE [µm]", "before [µm]", "after [µm]"} <= errors
+    assert all(one.endswith("[µm]") for one in errors)
+
+
 def test_a_row_says_once_that_its_tests_are_those_of_the_calibration(data: ReportData) -> None:
     text = body(render(data))
     assert "(etve and sp9000)" in text

@@ -112,7 +112,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
             ("gain_unit", "unit"),
             *([("offset", "offset")] if any(row["offset"] for row in shown) else []),
             ("sign", "sign"),
-            ("uncertainty_pct", "± [%]"),
+            ("uncertainty_pct", "± (k=1) [%]"),
             ("noise_um", "noise [um]"),
             ("nonlinearity_pct", "nonlin. [%]"),
             ("drift_um", "drift [um]"),
