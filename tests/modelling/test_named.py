@@ -15,7 +15,7 @@ from thermodata.modelling.add import add
 from thermodata.modelling.named import fit_named, name_taken_over, newest_model, of_which_campaign, of_which_version
 from thermodata.notebook.opened import OpenStore
 from thermodata.notebook.stale import GuessedModelWarning
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
