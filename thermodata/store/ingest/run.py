@@ -32,6 +32,7 @@ from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
 from thermodata.store.ingest.told.declared.not_listed import not_listed
+from thermodata.store.ingest.told.declared.said_before import said_before
 from thermodata.store.ingest.told.declared.taken_out import taken_out
 from thermodata.store.tidy.plan.refused import check_derived, check_measuring
 
@@ -145,6 +146,7 @@ def _ingest(
         before = None if in_its_place else refuse
         summary.stale, gone = _commit(store, mark, found, now, left, before)
         summary.changed = True
+        summary.notes += said_before(inventory.campaign, found.planned.spec, place)
         summary.notes += [*taken_out(gone), *read_by_another(inventory, rows["file"])]
         if summary.stale:
             one = len(summary.stale) == 1
