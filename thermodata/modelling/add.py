@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
@@ -62,7 +63,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
         said = beside_foretold(of_one, grown.names, refined.lags)
         spec, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
     added, of_response = _added(parent.spec, spec, old.data.channels)
-    notes = [*notes, *since, *of_response]
+    notes = [*notes, *since, *of_response, *_twins(found, grown.names)]
     result = fit_once(store, spec, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
     all_taken = bool(claims) and {c.id for c in claims} <= set(grown.names)
@@ -114,6 +115,18 @@ def _with_candidates(
         slips += [name] if lines else []
         grown = with_lines(grown, lines) if lines else with_candidate(grown, name, data.channels)
     return _Grown(grown, names, slips)
+
+
+def _twins(found: Diagnosis | None, names: Sequence[str]) -> list[str]:
+    """A note on what is added together though the tests can't tell it apart: what both do may be shared out in any way,
+    and sum up to much more in a test that no fit has seen. found: what told so."""
+    alike = {c.id: set(c.equivalent) for c in found.candidates} if found is not None else {}
+    pairs = [(a, b) for a, b in combinations(names, 2) if b in alike.get(a, ()) or a in alike.get(b, ())]
+    return [
+        f"{a} and {b} are both added, and these tests can't tell them apart: what they do may be shared out between "
+        "them in any way, and other tests be foretold worse; add one of them"
+        for a, b in pairs
+    ]
 
 
 def _added(parent: Model, grown: Model, channels: Mapping[str, Described]) -> tuple[list[str], list[str]]:
