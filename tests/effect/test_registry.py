@@ -111,3 +111,22 @@ def test_the_code_is_of_the_plugin_and_of_the_class_that_it_imports(
     (tmp_path / changed).write_text((tmp_path / changed).read_text() + "# another law\n")
     registry.code.cache_clear()
     assert registry.code() != before
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("spindle_bering", "spindle_bearing"),
+        ("feedscrew", "feed_screw"),
+        ("Coolant_heat", "coolant_heat"),
+        ("bearing", "spindle_bearing"),
+        ("ownheat", None),  # of a plugin that is not installed, and no slip of coolant_heat
+    ],
+)
+def test_an_effect_that_is_not_there_is_a_slip_only_where_it_is_spelt_nearly_so(word: str, meant: str | None) -> None:
+    with pytest.raises(UsageError) as refused:
+        effect(word)
+    hint = str(refused.value.hint)
+    assert ("did you mean" in hint) is (meant is not None)
+    assert meant is None or f"did you mean '{meant}'?" in hint
+    assert "if a plugin has it that is not installed here" in hint

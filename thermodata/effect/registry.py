@@ -6,6 +6,8 @@ import hashlib
 import inspect
 import sys
 import warnings
+from collections.abc import Sequence
+from difflib import get_close_matches
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -14,6 +16,7 @@ from thermodata.errors import FAILED, PluginError, UsageError, unknown_name
 from thermodata.plugin import Effect
 
 GROUP = "thermodata.effect"
+_A_SLIP = 0.75  # of two names that differ by slips: how alike their letters are
 INSTALL = "pip install thermodata-effects-machine-tool"
 
 
@@ -41,11 +44,19 @@ def effect(name: str) -> Effect:
         raise PluginError(f"effect '{name}' does not load", got=failed[name], hint="thermodata plugins")
     if not found:
         raise UsageError(f"no effect '{name}': no effects are installed", hint=INSTALL)
-    unknown = unknown_name("effect", name, list(found))
+    unknown = unknown_name("effect", name, list(found), near=_nearest_effect)
     unknown.hint = (
         f"{unknown.hint} " if unknown.hint else ""
     ) + "if a plugin has it that is not installed here: pip install that plugin; 'thermodata plugins' lists what is"
     raise unknown
+
+
+def _nearest_effect(word: str, choices: Sequence[str]) -> str | None:
+    """The effect that is spelt nearly so, or has the word in its name: one of a plugin that is not installed is no slip
+    of another one (ownheat, coolant_heat)."""
+    own = word.lower()
+    of_word = (name for name in choices if own in name.split("_"))
+    return next(iter(get_close_matches(own, choices, n=1, cutoff=_A_SLIP)), None) or next(of_word, None)
 
 
 def origin(effect: Effect) -> str:
