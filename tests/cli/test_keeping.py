@@ -175,3 +175,18 @@ def test_one_stale_model_is_one(say: Say, own: Path) -> None:
     )
     said = say("--store", own / "thermodata.store", "ingest", file)
     assert "1 fitted model is stale now: fit it again" in said.out
+
+
+def test_what_is_forgotten_stays_on_the_disk_until_gc_which_says_what_it_leaves(
+    say: Say, made_campaign: Path, tmp_path: Path
+) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
+    for file in store.rglob("*.parquet"):
+        os.utime(file)
+    said = say("--store", store, "forget", "small", "day2")
+    assert (said.code, "stay on the disk until thermodata gc" in said.err) == (0, True)
+    said = say("--store", store, "gc")
+    assert said.code == 0
+    assert "younger than 1 h and left alone, for an ingest may be writing" in said.err
+    said = say("--store", store, "gc", "--grace", "0 s")
+    assert "left alone" not in said.err

@@ -8,6 +8,8 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.report.text.table import fields
 
+_UNTIL_GC = "the files stay on the disk until thermodata gc, which leaves those of the last hour alone (--grace)"
+
 
 @command("forget")
 @click.argument("campaign", shell_complete=completing.campaigns)
@@ -26,6 +28,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 
     gone = plain(forget(session.store(), campaign, test, earlier=earlier, models=models))
     session.answer(gone, lambda: fields(gone.items()))
+    session.say(_UNTIL_GC)
     if n := gone["looks"]:
         session.say(f"{counted(n, 'look')} at locked tests will count on where the same data are ingested again")
 
@@ -37,10 +40,16 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
     from thermodata.schema.units.quantity import value_in
+    from thermodata.schema.words.sentences import counted
     from thermodata.store.keep.gc import gc
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))
     session.answer(gone, lambda: fields(gone.items()))
+    if n := gone["too_young"]:
+        session.say(
+            f"{counted(n, 'file', 'is', 'are')} younger than {grace} and left alone, for an ingest may be writing "
+            "meanwhile: run gc again later, or with --grace '0 s' where nobody works on this store"
+        )
 
 
 @command("check")
