@@ -54,7 +54,9 @@ def export_command(
     """Write tests as Parquet, CSV, Excel, MAT or MDF4.
 
     All sources together on a uniform grid, or as logged; the name of OUT says the format. Times are in UTC. CSV has
-    decimal points; Excel (.xlsx) has numbers in any language, units in the second row.
+    decimal points; Excel (.xlsx) has numbers in any language, units in the second row. On the grid t_s is where a step
+    begins, and a value its mean over that step: it belongs to the step's middle. Rows before t_s 0 are what a source
+    logged before the test began (the record of its probes, or its window).
 
     Several tests are a file each, where OUT says their names: export gantry day1 day2 'out/{test}.csv'; without a
     TEST all of the campaign.
