@@ -189,8 +189,9 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...], ca
     several = len(names) > 1
 
     def text() -> str:
+        shown = [{**row, "verdict": "not asked" if row["verdict"] == "x" else row["verdict"]} for row in rows]
         told = table(
-            rows,
+            shown,
             [
                 ("campaign", "campaign"),
                 ("test", "test"),
@@ -205,7 +206,7 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...], ca
                 ("ptp_n", "PTP n [um]"),
                 ("ptp_c", "PTP c [um]"),
                 ("verdict", "class"),
-                ("why", "x for"),
+                ("why", "not asked, for"),
             ],
         )
         return in_units_of(session, names, told)

@@ -54,13 +54,22 @@ def check_text(check: Check) -> str:
 
 def span(result: FitResult | ReportData, name: str) -> str:
     """The interval of a parameter: '0.9 … 1.2', '0.9 …' where these tests set no upper end, 'not determined' where they
-    set none within its bounds, or '-' where it is held or its uncertainty is not known."""
+    set none within its bounds, '-' where it is held or its uncertainty is not known, or that it changes nothing."""
+    if _changes_nothing(result, name):
+        return "changes nothing: gain 0"
     ends = (result.parameters[name].low, result.parameters[name].high)
     if ends == (None, None):
         # with several responses the name begins with that of one
         names = {f"not_determined:{known}" for known in (name, name.partition("/")[2])}
         return "not determined" if any(c.name in names for c in result.checks) else "-"
     return " … ".join("" if end is None else number(end) for end in ends).strip()
+
+
+def _changes_nothing(result: FitResult | ReportData, name: str) -> bool:
+    """Whether all gains of a parameter's effect are 0, as one is that its bound or the model file holds there."""
+    effect, _, own = name.rpartition(".")
+    gains = [p.value for n, p in result.parameters.items() if n.startswith(f"{effect}.gain")]
+    return bool(gains) and not any(gains) and not own.startswith("gain")
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:
@@ -86,11 +95,26 @@ def leveled(text: str) -> str:
     return f"{text}\n\n{prose(LEVEL)}"
 
 
+def no_common_test(results: list[FitResult]) -> str:
+    """That several models predict no test in common, so that nothing stands beside each other; else ''."""
+    tests = [{(s.campaign, s.test, s.response) for s in r.scores} for r in results]
+    if len(results) < 2 or set.intersection(*tests):
+        return ""
+    of = "; ".join(f"{r.name} {r.model[:6]} of {', '.join(r.campaigns)}" for r in results)
+    return (
+        f"no test in common ({of}): nothing stands beside each other. thermodata portability MODEL --campaign CAMPAIGN "
+        "says how a model does on another campaign's tests"
+    )
+
+
 def compare_text(results: list[FitResult]) -> str:
     """One model: its scores by test and phase. Several: RMSE and FIT beside each other, a row a test."""
     if len(results) == 1:
         head = f"{results[0].name}  {results[0].model}"
         return "\n\n".join([head, scores_text(results[0].scores, phases=True)])
+    if no_common := no_common_test(results):
+        each = [f"{r.name}  {r.model}\n\n{scores_text(r.scores)}" for r in results]
+        return "\n\n".join([no_common, *each])
     rows: dict[tuple[str, ...], dict[str, Any]] = {}
     many = len({s.response for r in results for s in r.scores}) > 1
     columns = [("campaign", "campaign"), ("test", "test"), ("role", "role")]

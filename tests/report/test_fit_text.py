@@ -1,0 +1,50 @@
+"""The words of fits and comparisons (report/text/fit.py)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from thermodata.report.text.fit import compare_text, fit_text, no_common_test
+from thermodata.schema.answers.result import FitResult, Parameter, Score
+
+
+def _score(test: str, campaign: str = "spring") -> Score:
+    return Score(
+        model="m",
+        campaign=campaign,
+        test=test,
+        role="calibration",
+        response="dZ",
+        phase="all",
+        fit=50.0,
+        rmse_um=1.5,
+        ptp_um=9.0,
+        ptp_residual_um=3.0,
+        max_um=2.0,
+        n=100,
+    )
+
+
+def _fit(name: str, scores: list[Score], **more: Any) -> FitResult:
+    given: dict[str, Any] = {"campaigns": [scores[0].campaign], "response": "dZ", "parameters": {}, "checks": []}
+    return FitResult(model=f"{name}123456", name=name, parent=None, scores=scores, **{**given, **more})
+
+
+def test_a_parameter_of_an_effect_whose_gain_is_0_changes_nothing() -> None:
+    values = {"nut.tau": 33.0, "nut.gain": 0.0, "nut2.tau": 44.0, "nut2.gain[a]": 0.0, "nut2.gain[b]": 1.0}
+    parameters = {name: Parameter(value=value, unit="min") for name, value in values.items()}
+    lines = fit_text(_fit("one", [_score("heat")], parameters=parameters)).splitlines()
+    told = {line.split()[0]: line for line in lines if line.startswith("nut")}
+    assert told["nut.tau"].endswith("changes nothing: gain 0")
+    assert not any("changes nothing" in line for name, line in told.items() if name != "nut.tau")
+
+
+def test_models_without_a_common_test_stand_below_each_other() -> None:
+    two = [_fit("one", [_score("heat")]), _fit("other", [_score("heat", "autumn")])]
+    text = compare_text(two)
+    assert text.startswith("no test in common (one one123 of spring; other other1 of autumn): nothing stands beside")
+    assert "thermodata portability" in text
+    assert text.count("RMSE [um]") == 2
+    assert " - " not in text.replace("\n", " ")
+    assert no_common_test([two[0], two[0]]) == ""
+    assert no_common_test(two[:1]) == ""
