@@ -8,6 +8,7 @@ import pytest
 
 from thermodata.draft.known.by_patterns import ids_in
 from thermodata.draft.known.of_logs import campaign_of_logs
+from thermodata.errors import UsageError
 from thermodata.schema.files.load import parse_campaign
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
@@ -142,3 +143,15 @@ tests: [{{id: old, role: none}}]
     with store.reader() as con:
         rows_of = con.execute("select strftime(start, '%H:%M') from test").fetchall()
     assert rows_of == [(start,)]
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_log_that_runs_through_several_tests_is_read_by_the_campaign_file_above(tmp_path: Path, beside: bool) -> None:
+    """It does not name its test, which that file says."""
+    if beside:
+        (tmp_path / "campaign.yaml").write_text("schema: thermodata/campaign/1\n")
+    (tmp_path / "raw").mkdir()
+    with pytest.raises(UsageError, match="the files of source 'hall' do not name their test") as refused:
+        found_in(tmp_path / "raw", "{test}.csv", "hall.csv", {"a.csv": "daq", "hall.csv": "hall"})
+    said = str(refused.value.hint)
+    assert said.startswith(f"predict {tmp_path}, whose campaign.yaml" if beside else "write a campaign file")

@@ -49,7 +49,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
     for name, spec in known.sources.items():
         if name not in {known.channels[c].source for c in wanted}:
             continue
-        files = _fitting(name, spec, names, known.id)
+        files = _fitting(name, spec, names, (known.id, folder))
         sources[name] = spec.model_copy(update={"files": files, "clock": _clock(spec, known, wanted)})
         signals = [c.signal for n, c in known.channels.items() if n in wanted and c.source == name and c.signal]
         read.append(Known(name, spec, tuple(files), tuple(signals)))
@@ -107,16 +107,17 @@ def _clock(spec: SourceSpec, known: Campaign, wanted: Collection[str]) -> object
     return spec.clock.model_copy(update={"align_to": None, "by": [], "events": []})
 
 
-def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> list[str]:
-    """The patterns of a source as the files of the folder are called: with its folders, or without."""
+def _fitting(name: str, spec: SourceSpec, names: list[str], of: tuple[str, Path]) -> list[str]:
+    """The patterns of a source as the files of the folder are called: with its folders, or without. of: the campaign,
+    and the folder."""
     patterns = [p for p in as_list(spec.files) if "{test}" in p]
     if not patterns:
         raise UsageError(
             f"the files of source '{name}' do not name their test",
-            where=f"campaign {campaign}",
+            where=f"campaign {of[0]}",
             expected="a pattern with {test}",
             got=", ".join(as_list(spec.files)) or "no files",
-            hint="write a campaign file for the new logs, and predict that",
+            hint=_with_its_file(of[1]),
         )
     bare = [p.rpartition("/")[2] for p in patterns]
 
@@ -124,6 +125,15 @@ def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> li
         return sum(pattern_of(p).fullmatch(n) is not None for p in tried for n in names)
 
     return max((patterns, bare), key=fit)
+
+
+def _with_its_file(folder: Path) -> str:
+    """A campaign file says of which tests a log is that runs through several: one that stands above the logs is named,
+    for a folder is read by the file in it."""
+    above = folder.resolve().parent
+    if (above / "campaign.yaml").is_file():
+        return f"predict {above}, whose campaign.yaml says which tests these logs hold"
+    return f"write a campaign file for the new logs (thermodata init {folder}), and predict the folder that has it"
 
 
 def _files(folder: Path) -> list[str]:
