@@ -45,6 +45,7 @@ DIAGNOSIS = {
     "by_choice",
     "not_asked",
     "locked_unasked",
+    "doubtful_clocks",
     "locked_tests",
     "started_on",
     "named_rmse_um",

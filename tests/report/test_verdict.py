@@ -51,6 +51,13 @@ def test_what_a_claim_asks_is_what_is_said_of_it() -> None:
     assert CLAIMS_ASK == (CLAIMED, PLACELESS_CLAIMED)
 
 
+def test_a_clock_that_could_not_be_aligned_is_named_in_the_verdict() -> None:
+    said = "the clock of nc is doubtful in 01_night: measuring comes from it"
+    for verdict in ("effect", "none", "unknown", "refine"):
+        assert verdict_sentence(found(verdict, [claim("nut")], doubtful_clocks=[said])).endswith(f"; {said}")
+        assert "doubtful" not in verdict_sentence(found(verdict, [claim("nut")]))
+
+
 @pytest.mark.parametrize(
     ("share", "text"),
     [

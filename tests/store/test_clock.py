@@ -16,6 +16,7 @@ from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.tidy.clock.lent import dated_sources, lent
 from thermodata.store.tidy.clock.source_clock import Clock
+from thermodata.view.grid.describe import channel_infos
 
 ALIGNED = CAMPAIGN.replace(
     'files: "raw/{test}.nc.npz"}',
@@ -67,7 +68,9 @@ def test_a_clock_that_cannot_be_aligned_is_suspect_and_told(store: Store, tmp_pa
     assert any("not aligned" in loss["reason"] for loss in summary.losses)
     with store.reader() as con:
         flags = con.execute("select distinct flag & 64 from driver where channel = 'speed'").fetchall()
+        (infos,) = [found for (_, test), found in channel_infos(con, ["shop"]).items() if test == "one"]
     assert flags == [(int(Flag.CLOCK_SUSPECT),)]
+    assert {name for name, info in infos.items() if info.clock_doubtful} == {"speed"}
 
 
 @pytest.mark.parametrize(("apart_s", "alike"), [(4.0, True), (300.0, False)])

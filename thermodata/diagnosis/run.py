@@ -33,6 +33,7 @@ from thermodata.effect.registry import code as code_of_effects
 from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
+from thermodata.modelling.seen.doubtful_clocks import doubtful_clocks
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, note_of_response, phases_of
 from thermodata.modelling.versions.made_without import still_without
@@ -107,7 +108,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     open_tests = [t.test for t in model.fitted.tests(model.data)]
     without = still_without([one.result.notes for one in model_chain(store, model.identity)], open_tests)
     asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version, "made_without": without}
-    found = _with_unasked(outcome.diagnosis.model_copy(update=asked_on), model)
+    found = _with_doubtful(_with_unasked(outcome.diagnosis.model_copy(update=asked_on), model), model)
     if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))
     before = kept_answer(store, model.identity, _question(response))
@@ -119,6 +120,14 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     if not found.not_asked:  # a plugin that was mended is asked, though nothing else has changed
         keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
     return found
+
+
+def _with_doubtful(found: Diagnosis, model: Loaded) -> Diagnosis:
+    """With the clocks that what is named hangs on, where nobody could align them and the answer moved none."""
+    drivers = {name for c in found.candidates if c.claimed or c.refinement for name in c.drivers}
+    moved = {c.source for c in found.put_right.clocks} if found.put_right is not None else set()
+    doubtful = doubtful_clocks(model.fitted, model.data, drivers)
+    return found.model_copy(update={"doubtful_clocks": [d.sentence for d in doubtful if d.source not in moved]})
 
 
 def _with_unasked(found: Diagnosis, model: Loaded) -> Diagnosis:

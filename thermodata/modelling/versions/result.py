@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.modelling.compare.common import lost_tests
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
+from thermodata.modelling.seen.doubtful_clocks import doubtful_clocks
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.trust.checks.started_on import started_on_checks
 from thermodata.schema.answers.result import Check, FitResult, Score
@@ -57,7 +58,8 @@ def make_result(
     ]
     rows = scores(fitted, data, identity)
     started = started_on_checks(fitted, data)
-    checks = [*fitted.checks(), *started, *skipped, *_not_predicted(fitted, data), *_not_scored(rows)]
+    checks = [*fitted.checks(), *_clocks(fitted, data), *started, *skipped]
+    checks += [*_not_predicted(fitted, data), *_not_scored(rows)]
     return FitResult(
         model=identity,
         name=fitted.spec.name,
@@ -70,6 +72,20 @@ def make_result(
         before=before,
         lost=None if before is None else lost_tests(before, rows, checks),
     )
+
+
+def _clocks(fitted: FittedModel, data: Dataset) -> list[Check]:
+    return [
+        Check(
+            name=f"clock_doubtful:{one.source}",
+            value=None,
+            threshold=None,
+            passed=False,
+            advice=f"{one.sentence}; it may lie minutes off: declare clock: {{offset: ...}} of the source, or clocks "
+            "of the test, by what both logs show, then ingest and fit again",
+        )
+        for one in doubtful_clocks(fitted, data)
+    ]
 
 
 def _not_predicted(fitted: FittedModel, data: Dataset) -> list[Check]:

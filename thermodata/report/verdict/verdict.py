@@ -96,7 +96,16 @@ def verdict_sentence(found: Diagnosis) -> str:
     """The verdict in one sentence with its figures: every claim, every refinement, what of the logs was put right
     before, and which tests the model was made without."""
     return "; ".join(
-        filter(None, [_verdict(found), put_right(found.put_right), without_steps(found), *_made_without(found)])
+        filter(
+            None,
+            [
+                _verdict(found),
+                put_right(found.put_right),
+                without_steps(found),
+                *found.doubtful_clocks,
+                *_made_without(found),
+            ],
+        )
     )
 
 

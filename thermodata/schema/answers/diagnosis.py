@@ -223,6 +223,8 @@ class Diagnosis(Result):
     locked_unasked: locked tests of the model that could not be asked: what the model or a claim reads was not logged
         there, or they repeat an open test; empty in an answer of an older version
     locked_tests: how many tests are locked, with those that could not be asked; null in an answer of an older version
+    doubtful_clocks: a sentence for each source whose clock could not be aligned in open tests, and on which the answer
+        hangs: it was asked as the logs are dated; empty in an answer of an older version
     started_on: open tests that begin with something on that may have run before
     data_version: digest of the data that it was asked on; null in an answer of an older version
     """
@@ -257,5 +259,6 @@ class Diagnosis(Result):
     not_asked: list[NotAsked] = []
     locked_unasked: list[LockedUnasked] = []
     locked_tests: int | None = None
+    doubtful_clocks: list[str] = []
     started_on: list[StartedOn] = []
     data_version: str | None = None

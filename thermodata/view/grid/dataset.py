@@ -24,7 +24,9 @@ class ChannelInfo:
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
     whether the campaign file says how its source's clock stands (of a dataset: in all tests). is_mask: a state at no
     place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.
-    scale_pct: standard (k = 1) uncertainty of its calibration's gain [%]; None where none tells it.
+    scale_pct: standard (k = 1) uncertainty of its calibration's gain [%]; None where none tells it. clock_doubtful:
+    whether its source's whole clock is doubtful in this test, for it could not be aligned. in_measuring: whether the
+    test's `measuring` reads it.
     """
 
     name: str
@@ -42,6 +44,8 @@ class ChannelInfo:
     is_mask: bool = False
     shifted: bool = False
     scale_pct: float | None = None
+    clock_doubtful: bool = False
+    in_measuring: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.calibration.measuring import measuring_names
 from thermodata.schema.files.campaign import Measuring
 from thermodata.store.catalogue.conditions import plain_value
+from thermodata.store.tidy.rows.timeline import WHOLE_CLOCK
 from thermodata.store.tidy.values.finer_steps import resolution_in
 from thermodata.store.views.catalogue import SCHEDULE
 from thermodata.view.grid.dataset import ChannelInfo
@@ -81,7 +82,7 @@ def channel_infos(
         [list(campaigns)],
     ).fetchall()
     flagged, declared = flagged_channels(con, campaigns), declared_clocks(con, campaigns)
-    masks = _masks(con, campaigns)
+    masks, doubtful = _masks(con, campaigns), _doubtful_clocks(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit, scale in rows:
         resolution = _json(sensor).get("resolution")
@@ -98,6 +99,8 @@ def channel_infos(
             clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
             is_mask=quantity == "state" and at is None and name in masks.get((campaign, test), frozenset()),
             scale_pct=scale,
+            clock_doubtful=(campaign, test, source) in doubtful,
+            in_measuring=name in masks.get((campaign, test), frozenset()),
         )
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:
@@ -119,6 +122,16 @@ def _masks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> dict[tup
             spec = Measuring.model_construct(when=spec.get("when"), in_range=spec.get("in_range"))
         found[campaign, test] = measuring_names(spec)
     return found
+
+
+def _doubtful_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:
+    """(campaign, test, source), where the whole clock is doubtful."""
+    rows = con.execute(
+        "select distinct campaign, test, source from quality_event where list_contains(?, campaign) "
+        "and flag = 'clock_suspect' and channel is null and detail = ?",
+        [list(campaigns), WHOLE_CLOCK],
+    )
+    return {(campaign, test, source) for campaign, test, source in rows.fetchall()}
 
 
 def declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:

@@ -18,6 +18,7 @@ from thermodata.store.tidy.rows.in_parts import InPart, Parts, joined_parts
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096
+WHOLE_CLOCK = "the whole clock is doubtful"
 _MOST_STRETCHES = 50
 
 
@@ -92,7 +93,7 @@ class Timeline:
                     int(self.times(0, 1)[0]),
                     int(self.times(self.rows - 1, self.rows)[0]),
                     self.rows,
-                    "the whole clock is doubtful",
+                    WHOLE_CLOCK,
                 )
             ]
         marked, stretches = self.order.marked, []
