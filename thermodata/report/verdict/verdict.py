@@ -94,19 +94,9 @@ def other_heat(one: Candidate) -> str:
 
 def verdict_sentence(found: Diagnosis) -> str:
     """The verdict in one sentence with its figures: every claim, every refinement, what of the logs was put right
-    before, and which tests the model was made without."""
-    return "; ".join(
-        filter(
-            None,
-            [
-                _verdict(found),
-                put_right(found.put_right),
-                without_steps(found),
-                *found.doubtful_clocks,
-                *_made_without(found),
-            ],
-        )
-    )
+    before, which clocks are in doubt, and which tests the model was made without."""
+    parts = [_verdict(found), put_right(found.put_right), without_steps(found)]
+    return "; ".join(filter(None, [*parts, *found.doubtful_clocks, *_made_without(found)]))
 
 
 def _made_without(found: Diagnosis) -> list[str]:
