@@ -79,7 +79,7 @@ def store(build_once: Callable[[], Any]) -> Store:
         (Asked(kind="spindle", find="heat"), ["heat1"]),
         (Asked(sort="test"), ["day1", "day2", "heat1"]),
         (Asked(sort="valid"), ["day1", "heat1", "day2"]),
-        (Asked(sort="error", model="m1"), ["heat1", "day1", "day2"]),
+        (Asked(sort="error", models={"lab": "m1"}), ["heat1", "day1", "day2"]),
         (Asked(per_page=2, page=2), ["day2"]),
         (Asked(per_page=2, page=99), ["day2"]),
     ],
@@ -89,7 +89,7 @@ def test_what_is_asked_for_is_found_in_its_order(store: Store, asked: Asked, tes
 
 
 def test_a_test_says_what_counts_and_what_the_model_leaves(store: Store) -> None:
-    found = find_tests(store, Asked(model="m1"))
+    found = find_tests(store, Asked(models={"lab": "m1"}))
     heat, day, locked = found.rows
     assert (heat.valid, day.valid, heat.rmse_um, locked.rmse_um) == (1.0, 0.95, 1.41, None)
     assert heat.conditions == {"speed": "9000 rpm"}

@@ -115,6 +115,11 @@ def fitted_last(models: Sequence[ModelRow]) -> ModelRow:
     return max(models, key=lambda m: m.fitted)
 
 
+def fitted_last_of_each(models: Sequence[ModelRow]) -> dict[str, ModelRow]:
+    """Campaign -> the one of its models that was fitted last."""
+    return {campaign: m for m in sorted(models, key=lambda m: m.fitted) for campaign in m.campaigns}
+
+
 def term_order(models: Sequence[ModelRow], chosen: Iterable[str]) -> list[str]:
     """The effects of the chosen models (ids) and of the versions that they came from, the oldest version's first: what
     is coloured in this order keeps its colour when an effect is added or taken out."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -55,7 +56,8 @@ counting as (
             from file where layer = 'tidy' and part = 'test') where c.value[2] > 0) group by all),
 errors as (
     select campaign, test, max(rmse_um) as rmse_um, min(fit) as fit, max(role) as model_role from score_row
-    where model = $model and phase = 'all' group by all),
+    where (campaign, model) in (select unnest($of::varchar[]), unnest($models::varchar[])) and phase = 'all'
+    group by all),
 said as (
     select c.campaign, t.value->>'$.id' as test, t.value->'$.conditions' as conditions
     from campaign c, json_each(c.spec, '$.tests') t),
@@ -78,13 +80,13 @@ listed as (
 @dataclass(frozen=True, slots=True)
 class Asked:
     """What is looked for. find: words that all stand in a test's campaign, name, kind, role, machine, conditions or
-    notes. model: whose errors are shown beside the tests. page: from 1."""
+    notes. models: by campaign, the one whose errors are shown beside its tests. page: from 1."""
 
     find: str = ""
     campaign: str = ""
     role: str = ""
     kind: str = ""
-    model: str = ""
+    models: Mapping[str, str] = field(default_factory=dict)
     sort: Sort = "file"
     page: int = 1
     per_page: int = 50
@@ -177,7 +179,8 @@ def _counts(con: duckdb.DuckDBPyConnection, column: str, of: str = "test") -> di
 
 
 def _condition(asked: Asked) -> tuple[str, dict[str, Any]]:
-    parts, params = ["true"], {"model": asked.model}
+    parts = ["true"]
+    params: dict[str, Any] = {"of": list(asked.models), "models": list(asked.models.values())}
     for name in ("campaign", "role", "kind", "machine"):
         if value := getattr(asked, name):
             parts.append(f"{name} = ${name}")

@@ -1,0 +1,143 @@
+"""A store of several campaigns: each test is shown beside a model of its own campaign, and lines say of which they
+are."""
+
+from __future__ import annotations
+
+import html
+import re
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.model import Model
+from thermodata.store import Store
+from thermodata.store.catalogue.models import save_fit
+
+from ..view.conftest import Builder
+from .client import Client
+from .conftest import client_of
+
+T_S = np.arange(60) * 60.0
+# model -> (name, campaign, amplitude of its residual [um]), in the order of their fits
+FITTED = {
+    "a1": ("base", "summer", 8.0),
+    "b1": ("base", "winter", 3.0),
+    "a2": ("base", "summer", 2.0),
+    "a3": ("bearing", "summer", 1.0),
+}
+MACHINES = {"summer": "VMC-3", "winter": "SB-42", "bare": "SB-42"}
+
+
+def fit(store: Store, model: str) -> None:
+    name, campaign, size = FITTED[model]
+    spec = {
+        "schema": "thermodata/model/1",
+        "name": name,
+        "campaign": campaign,
+        "response": {"axis": "Z"},
+        "effects": [] if model == "a1" else [{"effect": "drift"}],
+    }
+    y = size * np.sin(T_S / 900)
+    score = Score(
+        model=model, campaign=campaign, test="day", role="calibration", response="dZ", phase="all", fit=50.0,
+        rmse_um=size / 2, ptp_um=2 * size, ptp_residual_um=size, max_um=size, n=60,
+    )  # fmt: skip
+    result = FitResult(
+        model=model, name=name, parent="a1" if model == "a2" else None, campaigns=[campaign], response="dZ",
+        parameters={}, scores=[score], checks=[],
+    )  # fmt: skip
+    table = {"t_s": T_S, "measured": y, "predicted": 0 * y, "residual": y, "valid": np.ones(60, bool)}
+    save_fit(
+        store,
+        spec=Model.model_validate(spec),
+        result=result,
+        parent=result.parent,
+        predictions={(campaign, "day", "dZ"): pa.table({**table, "c__drift": 0.1 * y})},
+        data_version="v1",
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three campaigns on two machines, each with a test 'day'; of 'bare' there is no model."""
+    b = Builder(tmp_path_factory.mktemp("several") / "thermodata.store")
+    for campaign in ("winter", "summer", "bare"):
+        b.test(campaign, "day")
+        b.channel(campaign, "day", "dZ")
+        b.add("machine", campaign=campaign, test="day", machine=MACHINES[campaign], attributes="{}")
+    store = b.store()
+    for model in FITTED:
+        fit(store, model)
+    return store.path.parent
+
+
+@pytest.fixture
+def reader(folder: Path) -> Client:
+    return client_of(folder)[0]
+
+
+def rows_of(text: str) -> dict[str, str]:
+    """campaign -> its row of the list."""
+    rows = re.findall(r"<tr>\s*<td data-th=\"campaign\".*?</tr>", text, re.S)
+    return {found[1]: row for row in rows if (found := re.search(r'class="whole">(.*?)</td>', row))}
+
+
+def errors_of(text: str) -> dict[str, str | None]:
+    """campaign -> the error of its test."""
+    found = {name: re.search(r'data-unit="µm">([\d.]+)<', row) for name, row in rows_of(text).items()}
+    return {name: one[1] if one else None for name, one in found.items()}
+
+
+def options_of(text: str, select: str) -> list[tuple[str, bool]]:
+    """(text, whether it is chosen) of each option of a select."""
+    found = re.search(rf'<select[^>]* name="{select}">(.*?)</select>', text, re.S)
+    assert found
+    options = re.findall(r"<option([^>]*)>(.*?)</option>", found[1])
+    return [(html.unescape(told), "selected" in more) for more, told in options]
+
+
+@pytest.mark.parametrize(
+    ("asked", "errors"),
+    [
+        ("", {"winter": "1.50", "summer": "0.500", "bare": None}),
+        ("campaign=winter", {"winter": "1.50"}),
+        ("campaign=summer", {"summer": "0.500"}),
+        ("campaign=bare", {"bare": None}),
+        ("campaign=summer&model=a1", {"summer": "4.00"}),
+        ("model=a1", {"winter": None, "summer": "4.00", "bare": None}),
+        ("campaign=winter&model=a1", {"winter": "1.50"}),  # a model of another campaign predicts none of it
+    ],
+)
+def test_a_test_stands_beside_a_model_of_its_own_campaign(
+    reader: Client, asked: str, errors: dict[str, str | None]
+) -> None:
+    assert errors_of(reader.get(f"/?{asked}").text) == errors
+
+
+def test_where_each_campaign_has_its_own_model_the_rows_name_it(reader: Client) -> None:
+    text = reader.get("/").text
+    rows = rows_of(text)
+    assert "model of each campaign that was <b>fitted last</b>" in text
+    assert "bearing 1" in rows["summer"]
+    assert "base 1" in rows["winter"]
+    assert "no model of bare" in rows["bare"]
+    assert [o for o in options_of(text, "model") if o[1]] == []  # the first one: of each the last
+    assert options_of(text, "model")[0][0] == "fitted last of each campaign"
+
+
+def test_one_campaign_is_shown_with_its_scale_its_models_and_its_command(reader: Client) -> None:
+    text = reader.get("/?campaign=winter").text
+    assert re.search(r"Residual of <b>.*base 1.*</b> over each test, one scale", text)
+    assert re.search(r"−3\.0 to \+3\.0 µm", text)
+    assert re.search(r"compare b1</code>", text)
+    assert len(options_of(text, "model")) == 2
+    assert 'href="/missing?model=b1"' in text  # the other pages go on with it
+
+
+def test_no_scale_is_made_up_where_nothing_is_predicted(reader: Client) -> None:
+    text = reader.get("/?campaign=bare").text
+    assert "one scale" not in text
+    assert "No model of bare was fitted yet" in text
