@@ -14,7 +14,7 @@ import pytest
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.models import save_fit
+from thermodata.store.catalogue.models.fits import save_fit
 
 from ..view.conftest import Builder
 from .client import Client
@@ -141,3 +141,29 @@ def test_no_scale_is_made_up_where_nothing_is_predicted(reader: Client) -> None:
     text = reader.get("/?campaign=bare").text
     assert "one scale" not in text
     assert "No model of bare was fitted yet" in text
+
+
+def test_lists_of_models_say_of_which_campaign_each_is(reader: Client) -> None:
+    """Two campaigns have a model 'base', and 'bearing' is the name of one model only."""
+    wanted = ["bearing 1 of summer", "summer/base 2", "winter/base 1", "summer/base 1"]
+    pinned = [told for told, _ in options_of(reader.get("/compare").text, "pin")]
+    assert pinned == wanted
+    for path in ("/missing", "/report"):
+        listed = [told for told, _ in options_of(reader.get(path).text, "model")]
+        assert [told.split(", ")[0] for told in listed] == ["bearing 1", *wanted[1:]]
+        assert listed[0].startswith("bearing 1, of summer, 1 effect")
+    assert [o for o, _ in options_of(reader.get("/").text, "model")][1:] == wanted
+
+
+def test_models_of_two_campaigns_side_by_side_name_the_campaign_of_each_test(reader: Client) -> None:
+    text = reader.get("/compare?model=a2&model=b1&pin=a2").text
+    rows = re.findall(r'<td class="name"><a href="/test[^"]*">(.*?)</a>', text)
+    assert rows == ["summer/day", "winter/day"]
+    assert options_of(text, "test") == [("summer/day", True)]
+    assert "What each effect gives in summer/day</h2>" in text
+
+
+def test_a_campaign_of_its_own_needs_no_name(reader: Client) -> None:
+    text = reader.get("/compare?model=a2&model=a3&pin=a2").text
+    assert options_of(text, "test") == [("day", True)]
+    assert re.findall(r'<td class="name"><a href="/test[^"]*">(.*?)</a>', text) == ["day"]

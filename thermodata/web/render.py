@@ -18,7 +18,9 @@ from thermodata.report.text.fit import span
 from thermodata.report.verdict.verdict import probability
 from thermodata.report.words.glossary import LEVEL_SENTENCE
 from thermodata.report.words.numbers import base_role, change, duration, number, percent, typeset
+from thermodata.schema.words.sentences import with_count
 from thermodata.version import __version__
+from thermodata.view.lists.models import of_several_campaigns
 from thermodata.web.assets import SCRIPTS, STYLES
 from thermodata.web.desk import Desk
 
@@ -57,6 +59,8 @@ def environment() -> jinja2.Environment:
         begun=begun,
         percent=lambda share: typeset(percent(share)),
         base_role=base_role,
+        of_several_campaigns=of_several_campaigns,
+        with_count=with_count,
         plain=lambda text: str(text).replace("_", " "),
         grouped=lambda n: f"{n:,}".replace(",", "\u202f"),
     )

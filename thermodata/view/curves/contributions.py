@@ -7,8 +7,7 @@ bands that are drawn are apart.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -107,10 +106,11 @@ def open_test(store: Store, model: str, name: str) -> tuple[str, str]:
     return found[0]
 
 
-def test_names(keys: Sequence[Key]) -> dict[Key, str]:
-    """The name by which `open_test` finds each: TEST, or CAMPAIGN/TEST where two campaigns have it."""
-    often = Counter(name for c, t in keys for name in (t, f"{c}/{t}"))
-    return {(c, t): t if often[t] == 1 else f"{c}/{t}" for c, t in keys}
+def test_names(keys: Sequence[Key], beside: Iterable[str]) -> dict[Key, str]:
+    """The name by which `open_test` finds each: TEST, or CAMPAIGN/TEST where they are of several campaigns. beside:
+    campaigns whose tests stand on the same page."""
+    several = len({c for c, _ in keys} | set(beside)) > 1
+    return {(c, t): f"{c}/{t}" if several else t for c, t in keys}
 
 
 def contributions(store: Store, models: Sequence[str], campaign: str, test: str) -> list[Contributions]:

@@ -22,8 +22,9 @@ class ModelRow:
     """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file,
     terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
-    first. verdict: of its diagnosis, None where it has none. label: its name and version, and its id where another
-    model has these too. fitted: the last fit has the largest, of a version that is new or of an older one again.
+    first. verdict: of its diagnosis, None where it has none. label: its name and version, after its campaign where
+    models of several campaigns have the name, and with its id where another model has these too. fitted: the last fit
+    has the largest, of a version that is new or of an older one again.
     tests: how many it was fitted to."""
 
     model: str
@@ -71,8 +72,14 @@ def model_rows(store: Store) -> list[ModelRow]:
     """All models of the store."""
     with store.reader() as con:
         rows = fetch(con, _MODELS)
-    often = Counter(_label(r) for r in rows)
-    return [_row(r, json.loads(r["spec"]).get("effects", []), often[_label(r)] > 1) for r in rows]
+    return [
+        _row(r, json.loads(r["spec"]).get("effects", []), label) for r, label in zip(rows, _labels(rows), strict=True)
+    ]
+
+
+def of_several_campaigns(models: Iterable[ModelRow]) -> bool:
+    """Whether a list of them has to say of which campaign each is."""
+    return len({m.campaigns for m in models}) > 1
 
 
 def role_in_model(store: Store, model: str, campaign: str, test: str) -> str | None:
@@ -84,11 +91,20 @@ def role_in_model(store: Store, model: str, campaign: str, test: str) -> str | N
     return row[0] if row else None
 
 
-def _label(r: dict[str, Any]) -> str:
-    return f"{r['name']} {r['version']}"
+def _labels(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """'base 2'; 'lathe/base 2' where other campaigns have a base; with the id where that is no name of one model."""
+    of: dict[str, set[tuple[str, ...]]] = {}
+    for r in rows:
+        of.setdefault(r["name"], set()).add(tuple(r["campaigns"]))
+    told = [
+        f"{r['campaigns'][0]}/" * (len(of[r["name"]]) > 1 and len(r["campaigns"]) == 1) + f"{r['name']} {r['version']}"
+        for r in rows
+    ]
+    often = Counter(told)
+    return [f"{label} ({r['model'][:6]})" if often[label] > 1 else label for r, label in zip(rows, told, strict=True)]
 
 
-def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> ModelRow:
+def _row(r: dict[str, Any], effects: list[dict[str, Any]], label: str) -> ModelRow:
     return ModelRow(
         r["model"],
         r["name"],
@@ -104,7 +120,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> Model
         r["calibration"],
         r["verification"],
         r["verdict"],
-        f"{_label(r)} ({r['model'][:6]})" if again else _label(r),
+        label,
         int(r["fitted"]),
         int(r["tests"]),
     )

@@ -15,15 +15,12 @@ from thermodata.chart.pack import script_json
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.differences import Course
 from thermodata.plugin import Float1D
-from thermodata.report.collected.data import Version
-from thermodata.report.collected.history import chain_units, how_it_went, versions
-from thermodata.report.collected.lost import lost_of_compared, lost_of_versions
-from thermodata.report.page.headline import capital
+from thermodata.report.collected.lost import lost_of_compared
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
-from thermodata.store.catalogue.models.fits import find_model, model_chain
+from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.catalogue.models.stale import stale_line
 from thermodata.view.curves.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.curves.predictions import residual_courses
@@ -42,6 +39,7 @@ from thermodata.web.pages.parts.compare_lines import (
     roles,
     with_differences,
 )
+from thermodata.web.pages.parts.compare_versions import how_it_fell
 from thermodata.web.pages.parts.contributions import contribution_chart
 from thermodata.web.pages.parts.drawn import pair
 from thermodata.web.render import desk_of, page
@@ -65,7 +63,7 @@ def show(request: Request) -> Response:
         pair=pair,
         **_form(compared),
         **_headline(compared),
-        **_versions(compared),
+        **how_it_fell(store, models, compared.newest),
         **_residuals(compared, given),
         **_contributions(compared, desk.store_path, given.get("test", "")),
         **_test_by_test(compared),
@@ -94,6 +92,11 @@ class _Compared:
     @property
     def pinned(self) -> ModelRow:
         return self.chosen[0]
+
+    @property
+    def campaigns(self) -> set[str]:
+        """Of all that are chosen: where they are several, a test is named with its own."""
+        return {c for m in self.chosen for c in m.campaigns}
 
     @property
     def newest(self) -> ModelRow:
@@ -156,27 +159,11 @@ def _headline(of: _Compared) -> dict[str, Any]:
     }
 
 
-def _versions(of: _Compared) -> dict[str, Any]:
-    """How the error fell from version to version of the newest."""
-    newest = of.newest
-    stored = model_chain(of.store, newest.model)
-    chain = versions(stored, chain_units(of.store, stored))
-    of_chain = told_together(newest.responses, response_units(of.store, newest.responses, newest.campaigns))
-    waterfall = _waterfall(chain)
-    return {
-        "waterfall": waterfall,
-        "went": how_it_went([error for _, error, _ in waterfall]),
-        "told_of_chain": some_of(of_chain, newest.responses),
-        "lost": capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
-        "undo": next((m for m in of.models if m.model == newest.parent), None),
-    }
-
-
 def _residuals(of: _Compared, given: QueryParams) -> dict[str, Any]:
     """Of the one response, over the tests, over a channel and by itself."""
     over, unit = given.get("over", ""), of.units.get(of.response, of.pinned.unit)
     parts = residuals(of.store, of.newest.model, predicted_tests(of.store, of.newest.model), of.response)
-    heat = maps(of.store, of.chosen, of.predicted, of.response, unit)
+    heat = maps(of.store, of.chosen, test_names(of.predicted, of.campaigns), of.response, unit)
     return {
         "heat": [(m, script_json(chart.as_json())) for m, chart in heat],
         "over": over,
@@ -188,7 +175,7 @@ def _residuals(of: _Compared, given: QueryParams) -> dict[str, Any]:
 
 def _contributions(of: _Compared, store_path: Path, named: str) -> dict[str, Any]:
     """What each effect gives in one test. named: that test; '' where nobody asked for one."""
-    names = test_names(of.predicted)
+    names = test_names(of.predicted, of.campaigns)
     shown = _shown_test(of, named)
     beside = contributions(of.store, [m.model for m in of.chosen], *shown) if shown else []
     labels = {m.model: m.label for m in of.chosen}
@@ -215,6 +202,7 @@ def _test_by_test(of: _Compared) -> dict[str, Any]:
         "units": of.units,
         "mixed": len({of.units.get(line.response) for line in of.lines}) > 1,
         "several": len({line.response for line in of.lines}) > 1,
+        "several_campaigns": len(of.campaigns) > 1,
         "most": largest(of.lines, of.units),
         "over_roles": over_roles(of.lines, [of_responses(each, of.together) for each in of.courses]),
         "in_sample": IN_SAMPLE if any(any(line.in_sample) for line in of.lines) else None,
@@ -281,12 +269,6 @@ def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult 
     """(name, those of the results that have it)."""
     names = dict.fromkeys(name for result in results for name in result.readable)
     return [(name, [result if name in result.parameters else None for result in results]) for name in names]
-
-
-def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float | None]]:
-    """(version, its error, the error before it)."""
-    known = [v for v in chain if v.all_um is not None]
-    return [(v, v.all_um or 0.0, known[i - 1].all_um if i else None) for i, v in enumerate(known)]
 
 
 def _channels(store: Store, model: ModelRow) -> list[str]:

@@ -189,20 +189,26 @@ def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
     """Of each test how often it was opened, and for what: each look with its model, the last ones where they are
     many."""
     rows = []
-    for (_, test), looks in looks_of(store, model.campaigns).items():
+    for (campaign, test), looks in looks_of(store, model.campaigns).items():
         said = [f"{look.model[:6]}: {look.reason}" for look in looks[-_LOOKS:]]
         left = len(looks) - len(said)
         reason = "; ".join([f"{left} before"] * bool(left) + said)
-        rows.append({"test": test, "n": len(looks), "reason": reason})
+        rows.append({"test": _named(model, campaign, test), "n": len(looks), "reason": reason})
     return rows
 
 
 def _locked(store: Store, model: ModelRow) -> list[str]:
     with store.reader() as con:
         rows = fetch(
-            con, "select test from test where role = 'locked' and list_contains(?, campaign)", [list(model.campaigns)]
+            con,
+            "select campaign, test from test where role = 'locked' and list_contains(?, campaign)",
+            [list(model.campaigns)],
         )
-    return [row["test"] for row in rows]
+    return [_named(model, row["campaign"], row["test"]) for row in rows]
+
+
+def _named(model: ModelRow, campaign: str, test: str) -> str:
+    return f"{campaign}/{test}" if len(model.campaigns) > 1 else test
 
 
 def _unbound(store: Store, model: ModelRow) -> list[Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.store import Store
-from thermodata.view.curves.contributions import test_names
 from thermodata.view.curves.predictions import Prediction, residual_strips
 from thermodata.view.curves.residuals import Key, against
 from thermodata.view.lists.models import ModelRow
@@ -22,10 +22,11 @@ _MOST_LAG_S = 6 * 3600.0
 
 
 def maps(
-    store: Store, models: list[ModelRow], keys: list[Key], response: str, unit: str
+    store: Store, models: list[ModelRow], names: Mapping[Key, str], response: str, unit: str
 ) -> list[tuple[ModelRow, HeatMap]]:
-    """A map of each model on the scale of the pinned one: a fall must be seen. unit: of errors."""
-    made, limit = [], 0.0
+    """A map of each model on the scale of the pinned one: a fall must be seen. names: of the tests, in their order.
+    unit: of errors."""
+    made, limit, keys = [], 0.0, list(names)
     for model in models:
         strips = residual_strips(store, model.model, keys, response, BINS)
         if not strips:
@@ -36,7 +37,7 @@ def maps(
             f"Residual of {response} by {model.label} over every test",
             Axis("share of the test", "%"),
             unit,
-            list(test_names(keys).values()),
+            list(names.values()),
             values,
             [BINS] * len(keys),
             0.0,

@@ -1,0 +1,37 @@
+"""How the error fell from version to version of a model, and the way back to the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from thermodata.report.collected.data import Version
+from thermodata.report.collected.history import chain_units, how_it_went, versions
+from thermodata.report.collected.lost import lost_of_versions
+from thermodata.report.page.headline import capital
+from thermodata.report.words.of_response import some_of
+from thermodata.store import Store
+from thermodata.store.catalogue.models.fits import model_chain
+from thermodata.view.lists.models import ModelRow
+from thermodata.view.lists.response_units import response_units, told_together
+
+
+def how_it_fell(store: Store, models: Sequence[ModelRow], newest: ModelRow) -> dict[str, Any]:
+    """What the page says of the versions of `newest`. models: all of the store."""
+    stored = model_chain(store, newest.model)
+    chain = versions(stored, chain_units(store, stored))
+    of_chain = told_together(newest.responses, response_units(store, newest.responses, newest.campaigns))
+    waterfall = _waterfall(chain)
+    return {
+        "waterfall": waterfall,
+        "went": how_it_went([error for _, error, _ in waterfall]),
+        "told_of_chain": some_of(of_chain, newest.responses),
+        "lost": capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
+        "undo": next((m for m in models if m.model == newest.parent), None),
+    }
+
+
+def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float | None]]:
+    """(version, its error, the error before it)."""
+    known = [v for v in chain if v.all_um is not None]
+    return [(v, v.all_um or 0.0, known[i - 1].all_um if i else None) for i, v in enumerate(known)]
