@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch
+from thermodata.store.tidy.flags.not_measuring import ONLY
 from thermodata.view.lists.not_measured import not_measured
 
 if TYPE_CHECKING:
@@ -25,6 +26,12 @@ class Flagged:
     to_s: float
     n: int
     detail: str
+
+    @property
+    def idle(self) -> bool:
+        """Whether it stands for single samples between the measuring phases, with anything between the first and the
+        last of them: no stretch to draw."""
+        return self.detail == ONLY
 
 
 @dataclass(frozen=True, slots=True)

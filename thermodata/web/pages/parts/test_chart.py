@@ -15,7 +15,7 @@ from thermodata.schema.units.quantity import MEASURED, difference_unit
 from thermodata.schema.words.sentences import counted
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.window import Channel, Window
-from thermodata.view.lists.events import About
+from thermodata.view.lists.events import About, Flagged
 
 _HOUR = 3600.0
 _MOST_ROWS = 16
@@ -45,6 +45,7 @@ def test_chart(
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
     values = {name: (w.t_s / _HOUR, y) for w in windows for name, y in w.values.items()}
     known = [c for c in channels if c.name in values]
+    drawn = [f for f in about.flagged if not f.idle]
     panels: list[Panel | Strip] = [*_of_model(model), *_of_channels(known, values, named)]
     return Chart(
         f"Test {about.row['test']} over {length:.3g} hours: {counted(len(known), 'channel')}"
@@ -53,8 +54,8 @@ def test_chart(
         np.empty(0),
         panels,
         spans=_spans(about),
-        rows=_rows(about),
-        rows_title=_flags_title(about),
+        rows=_rows(drawn),
+        rows_title=_flags_title(drawn),
     )
 
 
@@ -178,15 +179,15 @@ def _spans(about: About) -> list[Span]:
     ]
 
 
-def _flags_title(about: About) -> str:
+def _flags_title(drawn: Sequence[Flagged]) -> str:
     """Which flags the rows are of: a colour alone says nothing on paper, nor to everybody."""
-    kinds = dict.fromkeys(f.flag.replace("_", " ") for f in about.flagged)
+    kinds = dict.fromkeys(f.flag.replace("_", " ") for f in drawn)
     return f"flags: {', '.join(kinds)}" if kinds else "flags"
 
 
-def _rows(about: About) -> list[Row]:
+def _rows(drawn: Sequence[Flagged]) -> list[Row]:
     runs: dict[str, list[tuple[float, float, str, str]]] = {}
-    for f in about.flagged:
+    for f in drawn:
         reason = f.flag.replace("_", " ") + (f": {f.detail}" if f.detail else "")
         colour = f"flag-{f.flag.replace('_', '-')}"
         runs.setdefault(f.channel or f.source, []).append((f.from_s / _HOUR, f.to_s / _HOUR, colour, reason))
