@@ -188,6 +188,31 @@ def test_a_model_file_in_another_encoding_is_shown(writer: Client, lab: Path) ->
     assert "not in UTF-8" in refused.text
 
 
+def test_another_campaign_begins_with_any_folder_below(lab: Path) -> None:
+    """Beside the campaign file that lies in the folder of the store, too."""
+    (lab / "second" / "raw").mkdir(parents=True)
+    client, desk = client_of(lab, write=True)
+    client = Client(client.app, [*client.headers, *write_headers(desk)])
+    text = html.unescape(client.get("/start").text)
+    assert "<summary>Another campaign from its raw logs</summary>" in text
+    assert re.search(r'<input name="folder" value="" list="folders"', text), "the folder itself has its campaign"
+    listed = re.search(r'<datalist id="folders">(.*?)</datalist>', text)
+    below = re.findall(r'value="([^"]+)"', listed[1] if listed else "")
+    assert below == [str(lab / "raw"), str(lab / "second")], "no store"
+    assert f"One elsewhere: <code>thermodata --store {desk.store_path} workbench FOLDER --write</code>" in text
+    (lab / "raw" / "day1.csv").rename(lab / "second" / "raw" / "day1.csv")
+    _, onward = finished(client, client.post("/task/draft", {"folder": "second"}).text)
+    assert onward is not None
+    assert "that only you can answer" in client.get(onward).text
+    assert client.post("/task/draft", {"folder": "../.."}).status == 400
+
+
+def test_who_only_reads_is_told_how_to_draft(made_lab: Path) -> None:
+    text = client_of(made_lab)[0].get("/start").text
+    assert 'name="folder"' not in text
+    assert "or draft in a terminal: <code>thermodata" in text
+
+
 def test_a_start_beside_stored_campaigns_names_them_and_leads_there(lab: Path, tmp_path: Path) -> None:
     """Where no campaign file lies in the folder that the workbench was started in, as above several campaigns."""
     client, desk = client_of(lab)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import itertools
+import os
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.schema.files.campaign import Channel
 from thermodata.schema.files.load import parse_campaign
 from thermodata.store.catalogue.campaign_paths import campaign_paths
+from thermodata.store.catalogue.format.create import CATALOGUE
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
@@ -27,6 +30,7 @@ from thermodata.web.render import desk_of, page
 
 _MOST_BYTES = 4 << 20
 _MOST_MODELS = 5
+_MOST_FOLDERS, _MOST_LOOKED_AT = 100, 1_000
 
 
 def show(request: Request) -> Response:
@@ -39,14 +43,29 @@ def show(request: Request) -> Response:
         request,
         "start.html.j2",
         title="Start",
-        command=command(desk.store_path, "init", folder) if text is None else command(desk.store_path, "ingest", path),
+        command=command(desk.store_path, *(("init", folder) if text is None else ("ingest", path))),
         folder=folder,
+        below=_below(folder),
+        draft_command=command(desk.store_path, "init", folder),
+        elsewhere_command=command(desk.store_path, "workbench", "FOLDER", "--write"),
         there=text is not None,
         stored=[] if text is not None or not desk.has_store else _stored(desk),
         id_taken=None if text is None else _id_taken(desk, path, text),
         **form_state(path, text),
         **_first_model(desk, path, text),
     )
+
+
+def _below(folder: Path) -> list[str]:
+    """Folders right below it that are no store and have no campaign file yet, for a field that takes any."""
+    found = []
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        for entry in itertools.islice(entries, _MOST_LOOKED_AT):
+            own = Path(entry.path)
+            is_folder = not entry.name.startswith(".") and entry.is_dir()
+            if is_folder and not (own / CATALOGUE).exists() and not (own / "campaign.yaml").exists():
+                found.append(entry.path)
+    return sorted(found)[:_MOST_FOLDERS]
 
 
 def _stored(desk: Desk) -> list[tuple[str, str | None]]:
