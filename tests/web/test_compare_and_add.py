@@ -97,6 +97,18 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
 
 
+def test_several_are_added_in_one_version(writer: Client, lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    first = model_rows(store)[0]
+    answer = writer.post("/task/add", {"model": first.model, "candidate": "1\r\nlag:T_hall"})  # as a browser sends it
+    assert "Adding 1 and lag:T_hall" in answer.text
+    _, onward = finished(writer, answer.text)
+    assert onward is not None
+    newest = model_rows(store)[0]
+    assert (newest.version, newest.parent) == (2, first.model)
+    assert len(newest.terms) == len(first.terms) + 2
+
+
 def test_it_is_no_fall_where_the_error_rose(writer: Client, lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     first = find_model(store, "baseline")

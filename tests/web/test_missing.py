@@ -22,7 +22,7 @@ from thermodata.store.catalogue.models.looks import count_locked_look
 from thermodata.store.catalogue.models.stale import fitted_again
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
 from thermodata.web.pages.parts.drawn import among, pair
-from thermodata.web.render import begun
+from thermodata.web.render import begun, link
 
 from .client import Client
 from .conftest import client_of
@@ -130,19 +130,36 @@ def test_a_slip_that_was_told_is_taken_out_by_a_click(lab: Path) -> None:
     assert "It was not claimed" not in text
 
 
-def test_of_several_claims_the_command_stands_that_adds_them_all(lab: Path) -> None:
+def test_of_several_claims_one_click_or_one_command_adds_them_all(lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     model = store.connect().execute("select model from model").fetchone()[0]
     found = load_diagnosis(store, model)
     one = next(c for c in found.candidates if c.claimed)
-    other = one.model_copy(update={"id": "coolant:coolant_on", "rank": 2})
-    for claims, told in (([one], False), ([one, other], True)):
+    other = one.model_copy(update={"id": "coolant:coolant_on", "effect": "coolant", "rank": 2})
+    for claims, several in (([one], False), ([one, other], True)):
         save_diagnosis(store, model, found.model_copy(update={"candidates": claims}))
-        for write in (False, True):
-            text = client_of(lab, write=write)[0].get("/missing").text
-            said = re.search(r"To have both: <code>(.*?)</code>", text)
-            assert (said is not None) is told
-            assert said is None or said[1].endswith(f"add {model} {one.id} coolant:coolant_on")
+        said = re.findall(r"To have both: <code>(.*?)</code>", client_of(lab)[0].get("/missing").text)
+        assert [line.split("add ")[1] for line in said] == [f"{model} {one.id} coolant:coolant_on"] * 2 * several
+        text = client_of(lab, write=True)[0].get("/missing").text
+        assert "To have both" not in text
+        ways = {html.unescape(way) for way in re.findall(r'href="([^"]*)">Add both …</a>', text)}
+        assert ways == ({link("/add", model=model, candidate=[one.id, "coolant:coolant_on"])} if several else set())
+
+
+def test_what_is_added_together_is_told_one_by_one(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    one = next(c for c in load_diagnosis(store, model).candidates if c.claimed)
+    client = client_of(lab, write=True)[0]
+    text = html.unescape(client.get(link("/add", model=model, candidate=[one.id, "lag:T_hall"])).text)
+    assert f"<h1>Add {one.id} and lag:T_hall</h1>" in text
+    assert re.search(rf'<h2>{one.id} <span class="badge good">claimed</span></h2>', text)
+    assert re.search(r"<h2>lag:T_hall <span", text)
+    assert f'name="candidate" value="{one.id}\nlag:T_hall"' in text
+    assert re.search(rf"<code>thermodata .*add {model} {one.id} lag:T_hall</code>", text)
+    assert 'hx-confirm="lag:T_hall was not claimed.' in text
+    assert ">Add both</button>" in text
+    assert client.get(link("/add", model=model, candidate=[one.id, "lag:T_nowhere"])).status == 400
 
 
 @pytest.mark.parametrize(

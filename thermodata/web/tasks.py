@@ -22,11 +22,11 @@ def diagnose(store: Path, tell: Tell, model: str) -> dict[str, Any]:
 
 
 def add(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
-    """`thermodata add MODEL CANDIDATE`."""
+    """`thermodata add MODEL CANDIDATE...`. candidate: one a line."""
     from thermodata.modelling.add import add as run
 
     with watched(tell):
-        result = run(Store(store), model, candidate)
+        result = run(Store(store), model, *candidate.splitlines())
     return {"model": result.model, "onward": _to("/compare", model=result.model)}
 
 

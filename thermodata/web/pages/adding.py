@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from starlette.requests import Request
 from starlette.responses import Response
 
@@ -9,8 +11,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
+from thermodata.schema.words.sentences import listed
 from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import load_diagnosis
 from thermodata.store.catalogue.models.fits import StoredModel, find_model
@@ -21,30 +24,48 @@ from thermodata.web.pages.parts.drawn import pair
 from thermodata.web.render import desk_of, page
 
 
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What is added. candidate: what the stored answer says of it. slips: of a probe, which a slip is taken out by."""
+
+    name: str
+    candidate: Candidate | None
+    slips: list[Artefact]
+
+    @property
+    def told(self) -> bool:
+        """Whether the stored answer asks for it, or offers it."""
+        return bool(self.slips or (self.candidate and (self.candidate.claimed or self.candidate.refinement)))
+
+
 def show(request: Request) -> Response:
-    """GET /add: model, candidate. What the stored answer says of it; nothing is fitted here."""
+    """GET /add: model, candidate (one or several). What the stored answer says of them; nothing is fitted here."""
     desk, given = desk_of(request), request.query_params
     store = desk.store()
-    name = given.get("candidate", "")
-    if not name:
+    names = list(dict.fromkeys(filter(None, given.getlist("candidate"))))
+    if not names:
         raise UsageError("no candidate was named", hint="choose one on the page 'What is missing'")
     model = find_model(store, given.get("model", ""))
     found = load_diagnosis(store, model.model)
-    slips = [slip for its, slip in named_slips(found) if its == name] if found else []
-    identity, candidate = (name, None) if slips else _candidate(store, model, found, name)
+    chosen = [_chosen(store, model, found, name) for name in names]
+    name = listed([c.name for c in chosen])
     return page(
         request,
         "adding.html.j2",
-        title=f"Add {identity}",
+        title=f"Add {name}",
         section="/missing",
-        command=command(desk.store_path, "add", model.model, name),
+        command=command(desk.store_path, "add", model.model, *names),
         model=model,
-        name=identity,
-        candidate=candidate,
-        slips=slips,
+        name=name,
+        chosen=chosen,
         unit=unit_of(store, found.response if found else model.result.responses[0], model.spec.campaign_ids),
         pair=pair,
     )
+
+
+def _chosen(store: Store, model: StoredModel, found: Diagnosis | None, named: str) -> Chosen:
+    slips = [slip for its, slip in named_slips(found) if its == named] if found else []
+    return Chosen(named, None, slips) if slips else Chosen(*_candidate(store, model, found, named), [])
 
 
 def _candidate(store: Store, model: StoredModel, found: Diagnosis | None, named: str) -> tuple[str, Candidate | None]:

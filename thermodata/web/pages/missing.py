@@ -109,6 +109,8 @@ def show(request: Request) -> Response:
 def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
     """What the page tells of the kept answer. unit: of its response."""
     shown, claims = told(found), claims_of(found)
+    added = _added(found, model)
+    missing = [c for c in claims if c.id not in added]
     first, rest = _headline(found)
     title, text = _NOTHING.get(found.verdict, _NOTHING["none"])
     heat = found.unknown.heat if found.unknown else None
@@ -132,9 +134,9 @@ def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
         "left_out": {c.rank: _left_out(c) for c in shown},
         "equivalents": {e for c in claims for e in c.equivalent},
         "rivals": [c for c in found.candidates if c not in shown],
-        "added": _added(found, model),
+        "added": added,
         "against": {c.id: in_unit(against_adding(c), unit) for c in shown if c.refinement},
-        "together": claims if len(claims) > 1 else [],
+        "together": missing if len(missing) > 1 else [],
     }
 
 

@@ -8,6 +8,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.errors import UsageError, unknown_name
+from thermodata.schema.words.sentences import listed
 from thermodata.web.form import form_of
 from thermodata.web.render import desk_of, page
 from thermodata.web.work import Job, Work
@@ -37,7 +38,7 @@ async def start(request: Request) -> Response:
             raise UsageError(f"'{name}' is missing", where=task)
     desk = desk_of(request)
     arguments = {n: str(desk.inside(v)) if n in _PATHS else v for n, v in given.items()}
-    told = {n: Path(v).name or v if n in _PATHS else v for n, v in given.items()}
+    told = {n: Path(v).name or v if n in _PATHS else listed(v.splitlines()) for n, v in given.items()}
     return _shown(request, work_of(request).start(task, what.format(**told), desk.store_path, arguments))
 
 
