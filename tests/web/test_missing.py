@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from thermodata.cli import main
 from thermodata.report.text.clauses import clauses
-from thermodata.report.verdict.verdict import verdict_sentence
+from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
@@ -144,6 +144,25 @@ def test_of_several_claims_one_click_or_one_command_adds_them_all(lab: Path) -> 
         assert "To have both" not in text
         ways = {html.unescape(way) for way in re.findall(r'href="([^"]*)">Add both …</a>', text)}
         assert ways == ({link("/add", model=model, candidate=[one.id, "coolant:coolant_on"])} if several else set())
+
+
+def test_several_claims_have_a_line_each_below_a_short_head_and_all_but_the_first_are_folded(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    other = one.model_copy(update={"id": "coolant:coolant_on", "effect": "coolant", "rank": 2})
+    both = found.model_copy(update={"candidates": [one, other]})
+    save_diagnosis(store, model, both)
+    text = html.unescape(client_of(lab)[0].get("/missing").text)
+    assert '<h1 class="verdict effect">Missing: 2 effects</h1>' in text
+    rest = re.findall(r"<li>(.*?)</li>", re.search(r'<ul class="further">(.*?)</ul>', text, re.S)[1], re.S)
+    assert rest[:2] == [typeset(causes([c])) for c in (one, other)]
+    assert len(rest) == 1 + len(clauses(verdict_sentence(both))), "and every further clause"
+    assert text.count("<summary>Where it acts, and why it is claimed</summary>") == 1
+    cards = re.findall(r'<section class="card candidate.*?</section>', text, re.S)
+    assert [card.count("<details") == card.count("</details>") for card in cards] == [True, True]
+    assert ["Where it acts, and why" in card for card in cards] == [False, True]
 
 
 def test_what_is_added_together_is_told_one_by_one(lab: Path) -> None:

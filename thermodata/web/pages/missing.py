@@ -18,7 +18,7 @@ from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import against_adding
-from thermodata.report.verdict.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.verdict.verdict import causes, claims_of, explainable, told, verdict_sentence
 from thermodata.report.words.numbers import heat_lines, in_unit, number
 from thermodata.report.words.of_response import of_response, worst_of
 from thermodata.report.words.pieces import names_of_pieces
@@ -176,8 +176,11 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
 
 def _headline(found: Diagnosis) -> tuple[str, list[str]]:
     """The sentence of the terminal: (what it says first, each further clause), for seven lines in bold are no
-    headline."""
+    headline. Nor are several claims: they have a line each."""
     first, *rest = clauses(verdict_sentence(found))
+    claims = claims_of(found)
+    if len(claims) > 1 and first == f"missing: {causes(claims)}":
+        return f"Missing: {len(claims)} effects", [*(causes([c]) for c in claims), *map(capital, rest)]
     return capital(first), [capital(clause) for clause in rest]
 
 
