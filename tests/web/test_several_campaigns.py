@@ -82,7 +82,7 @@ def reader(folder: Path) -> Client:
 def rows_of(text: str) -> dict[str, str]:
     """campaign -> its row of the list."""
     rows = re.findall(r"<tr>\s*<td data-th=\"campaign\".*?</tr>", text, re.S)
-    return {found[1]: row for row in rows if (found := re.search(r'class="whole">(.*?)</td>', row))}
+    return {found[1]: row for row in rows if (found := re.search(r'class="whole">(\w+)', row))}
 
 
 def errors_of(text: str) -> dict[str, str | None]:
@@ -167,3 +167,23 @@ def test_a_campaign_of_its_own_needs_no_name(reader: Client) -> None:
     text = reader.get("/compare?model=a2&model=a3&pin=a2").text
     assert options_of(text, "test") == [("day", True)]
     assert re.findall(r'<td class="name"><a href="/test[^"]*">(.*?)</a>', text) == ["day"]
+
+
+def test_tests_are_found_by_their_machine_which_stands_beside_their_campaign(reader: Client) -> None:
+    text = reader.get("/").text
+    assert "<th>campaign, machine</th>" in text
+    cells = re.findall(r'class="whole">(\w+)<br><small class="muted">([^<]+)</small></td>', text)
+    assert dict(cells) == MACHINES
+    assert [told for told, _ in options_of(text, "machine")] == ["all", "SB-42 (2)", "VMC-3 (1)"]
+    assert [told for told, _ in options_of(text, "campaign")] == ["all", "bare (1)", "summer (1)", "winter (1)"]
+    filtered = reader.get("/?machine=SB-42").text
+    assert list(rows_of(filtered)) == ["bare", "winter"]
+    assert "2 of 3 tests" in filtered
+    assert "tests --machine SB-42" in filtered
+    assert list(rows_of(reader.get("/?find=sb-42+win").text)) == ["winter"]
+    assert reader.get("/?machine=SB-43").status == 400
+    assert "summer on VMC-3" in reader.get("/test?campaign=summer&test=day").text
+
+
+def test_the_campaigns_of_a_store_are_listed_with_their_machines(reader: Client) -> None:
+    assert "bare (SB-42), summer (VMC-3), winter (SB-42)" in reader.get("/start").text

@@ -36,13 +36,15 @@ class Flagged:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """A test as the catalogue has it. phases: name -> (from, to) [s]. flagged: in order of time, at most 2,000."""
+    """A test as the catalogue has it. phases: name -> (from, to) [s]. flagged: in order of time, at most 2,000.
+    machine: its id."""
 
     row: dict[str, Any]
     phases: dict[str, tuple[float, float]]
     flagged: tuple[Flagged, ...]
     looks: int
     open_in: tuple[str, ...] = ()
+    machine: str | None = None
 
 
 def about_test(store: Store, campaign: str, test: str) -> About:
@@ -53,6 +55,7 @@ def about_test(store: Store, campaign: str, test: str) -> About:
     own = [campaign, test]
     with store.reader() as con:
         row = fetch(con, "select * from test where campaign = ? and test = ?", own)[0]
+        machines = fetch(con, "select machine from machine where campaign = ? and test = ?", own)
         phases = fetch(con, "select phase, from_s, to_s from phase where campaign = ? and test = ?", own)
         events = fetch(
             con,
@@ -78,4 +81,5 @@ def about_test(store: Store, campaign: str, test: str) -> About:
         ),
         locked_looks(store, campaign, test),
         tuple(open_in(store, [campaign]).get((campaign, test), ())),
+        machines[0]["machine"] if machines else None,
     )

@@ -98,7 +98,7 @@ class TestRow:
     """valid: share of the samples that count, 0 to 1; None where nothing was logged. measured_least, measured_most: of
     those of the displacement, tilt or angle of which fewest and most count; outside of `measuring` none do. rmse_um,
     fit: of the model's worst response over the whole test; model_role: of the test in the model, such as 'verification
-    (in-sample)'; None where it was not predicted."""
+    (in-sample)'; None where it was not predicted. machine: its id, None where none is known."""
 
     __test__ = False
     campaign: str

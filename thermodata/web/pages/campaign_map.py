@@ -27,7 +27,9 @@ PER_PAGE = 50
 
 
 def show(request: Request) -> Response:
-    """GET /: find, campaign, role, kind, sort, model, page. Without a model, each campaign has the one fitted last."""
+    """GET /: find, campaign, machine, role, kind, sort, model, page.
+
+    Without a model, each campaign has the one fitted last."""
     desk, given = desk_of(request), request.query_params
     store = desk.store()
     campaign, named = given.get("campaign", ""), given.get("model", "")
@@ -38,6 +40,7 @@ def show(request: Request) -> Response:
         campaign=campaign,
         role=given.get("role", ""),
         kind=given.get("kind", ""),
+        machine=given.get("machine", ""),
         models={c: m.model for c, m in of.items()},
         sort=cast(Sort, given.get("sort", "file")),
         page=number_in(given, "page", 1),
@@ -109,6 +112,7 @@ def _limit(strips: list[Float1D]) -> float:
 
 def _command(store: Any, asked: Asked, model: ModelRow | None) -> str:
     """Of a model `compare` prints what is left of each test."""
-    options = [("-c", asked.campaign), ("--role", asked.role), ("--kind", asked.kind), ("--find", asked.find)]
+    options = [("-c", asked.campaign), ("--machine", asked.machine), ("--role", asked.role), ("--kind", asked.kind)]
+    options += [("--find", asked.find)]
     tests = command(store, "tests", *(word for name, value in options if value for word in (name, value)))
     return f"{tests} && {command(store, 'compare', model.model)}" if model else tests

@@ -68,15 +68,19 @@ def _below(folder: Path) -> list[str]:
     return sorted(found)[:_MOST_FOLDERS]
 
 
-def _stored(desk: Desk) -> list[tuple[str, str | None]]:
-    """(campaign, its file as the address of this page has it; None where it lies in no chosen folder, or is gone)."""
+def _stored(desk: Desk) -> list[tuple[str, str, str | None]]:
+    """(campaign, its machines, its file as the address of this page has it; None where it lies in no chosen folder, or
+    is gone)."""
     with desk.store().reader() as con:
-        rows = con.execute("select campaign, path from campaign order by 1").fetchall()
+        rows = con.execute(
+            "select c.campaign, string_agg(distinct m.machine, ', ' order by m.machine), c.path "
+            "from campaign c left join machine m on m.campaign = c.campaign group by c.campaign, c.path order by 1"
+        ).fetchall()
     found = []
-    for name, written in rows:
+    for name, machines, written in rows:
         path = Path(written) if written else None
         near = path is not None and path.is_file() and any(path.resolve().is_relative_to(f) for f in desk.folders)
-        found.append((name, str(path) if near else None))
+        found.append((name, machines or "", str(path) if near else None))
     return found
 
 
