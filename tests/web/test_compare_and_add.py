@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.remove import remove
@@ -67,7 +68,10 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert len(limits) == 2
     assert limits[0] == limits[1]
     assert "How the error fell" in text
-    assert f'href="/compare?model={first.model}">Undo' in text
+    assert f'href="/compare?model={first.model}">Back to baseline 1</a>' in text
+    assert "where no model is named, pages and commands take the one that was fitted last, baseline 2." in text
+    again = re.search(r"which makes it the last: <code>(.*?)</code>", text)[1]
+    assert again.endswith(f"fit {first.model}")
     # day1 was kept out of the first version's fit, and helped to choose the effect of the second
     rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", text)]
     cells = {re.sub("<[^>]+>", "", row[0]): row[2:4] for row in rows if len(row) > 4 and "/test?" in row[0]}
@@ -93,8 +97,11 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
         page = writer.get(f"/test?campaign=small&test=day1&model={model}").text
         assert ("in-sample" in page) == said
         assert f"compare {model}" in html.unescape(writer.get(f"/?model={model}").text)
-    # undone is only left: both versions are there
+    # going back only leaves it: both versions are there, until the first is fitted again, as the page says
     assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
+    assert f"compare {newest}" in html.unescape(writer.get("/").text)
+    assert main(["--store", str(lab / "thermodata.store"), "fit", first.model, "--json"]) == 0
+    assert f"compare {first.model}" in html.unescape(writer.get("/").text)
 
 
 def test_several_are_added_in_one_version(writer: Client, lab: Path) -> None:

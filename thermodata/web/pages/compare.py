@@ -63,7 +63,7 @@ def show(request: Request) -> Response:
         pair=pair,
         **_form(compared),
         **_headline(compared),
-        **how_it_fell(store, models, compared.newest),
+        **how_it_fell(store, models, compared.newest, desk.store_path),
         **_residuals(compared, given),
         **_contributions(compared, desk.store_path, given.get("test", "")),
         **_test_by_test(compared),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from thermodata.report.collected.data import Version
@@ -12,22 +13,26 @@ from thermodata.report.page.headline import capital
 from thermodata.report.words.of_response import some_of
 from thermodata.store import Store
 from thermodata.store.catalogue.models.fits import model_chain
-from thermodata.view.lists.models import ModelRow
+from thermodata.view.lists.models import ModelRow, fitted_last
 from thermodata.view.lists.response_units import response_units, told_together
+from thermodata.web.command import command
 
 
-def how_it_fell(store: Store, models: Sequence[ModelRow], newest: ModelRow) -> dict[str, Any]:
-    """What the page says of the versions of `newest`. models: all of the store."""
+def how_it_fell(store: Store, models: Sequence[ModelRow], newest: ModelRow, store_path: Path) -> dict[str, Any]:
+    """What the page says of the versions of `newest`. models: all of the store. store_path: as commands name it."""
     stored = model_chain(store, newest.model)
     chain = versions(stored, chain_units(store, stored))
     of_chain = told_together(newest.responses, response_units(store, newest.responses, newest.campaigns))
     waterfall = _waterfall(chain)
+    undo = next((m for m in models if m.model == newest.parent), None)
     return {
         "waterfall": waterfall,
         "went": how_it_went([error for _, error, _ in waterfall]),
         "told_of_chain": some_of(of_chain, newest.responses),
         "lost": capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
-        "undo": next((m for m in models if m.model == newest.parent), None),
+        "undo": undo,
+        "taken": fitted_last(models),
+        "again_command": command(store_path, "fit", undo.model) if undo else "",
     }
 
 
