@@ -185,6 +185,15 @@ tests: [{id: day, kind: etve, role: calibration}]
         assert [int(at) for at, _ in levels] == [0, 100, 50]
         assert [float(mean) for _, mean in levels] == pytest.approx([5.001, 6.001, 5.501], abs=1e-3)
         assert text.count("<td>jump.csv, ") == 3
+    text = client.get("/trace?campaign=lab&test=day&channel=dZ&at=30").text
+    found = re.search(r"<dt>sum</dt><dd>(\S+) × (\S+) ([+−])(\S+) = (\S+)\sµm</dd>", text)
+    assert found
+    gain, raw, sign, offset, value = (part.replace("−", "-") for part in found.groups())
+    assert float(raw) == pytest.approx(5.03)
+    assert float(gain) * float(raw) + float(sign + offset) == pytest.approx(float(value))
+    told = re.search(r"<dt>gain</dt><dd>\S+ µm/V</dd><dt>offset</dt><dd>(\S+?)\s*µm</dd>", text)
+    assert told
+    assert float(told[1].replace("−", "-")) == pytest.approx(float(sign + offset), rel=1e-5)
     assert "jump_z: the rows" not in client.get("/trace?campaign=lab&test=day&channel=dZ").text, "of no sample"
 
 

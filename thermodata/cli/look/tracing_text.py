@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
+from thermodata.report.text.straight_line import offset_of, sum_of
 from thermodata.report.text.table import cell, fields, table
 
 Found = dict[str, Any]
@@ -84,28 +84,10 @@ def _channel(found: Found) -> str:
     for step in found["calibrations"]:
         about = f"{step['calibration']} ({step['kind']})"
         gain = f", gain {step['gain']} {step['gain_unit'] or ''}".rstrip() if step.get("gain") is not None else ""
-        gain += _offset(step)
+        gain += f", offset {offset}" if (offset := offset_of(step)) else ""
         file = "".join(f", from {f['source_path']} {f['sha256'][:12]}" for f in step["files"])
         lines.append(("calibration", about + gain + file))
     return fields([(k, v) for k, v in lines if v is not None])
-
-
-def _offset(step: Found) -> str:
-    if step.get("gain") is None or not step.get("offset_value"):
-        return ""
-    return f", offset {step['offset_value']} {(step['gain_unit'] or '').partition('/')[0]}".rstrip()
-
-
-def _sum(found: Found) -> list[tuple[str, Any]]:
-    """'gain * raw + offset = value', where one straight line makes the value from what the file says."""
-    sample, steps = found["sample"], [s for s in found["calibrations"] if s.get("gain") is not None]
-    raw, value = (sample["raw"] or {}).get("raw_value"), sample["value"]
-    if len(steps) != 1 or not isinstance(raw, int | float) or not isinstance(value, int | float):
-        return []
-    gain, offset = steps[0]["gain"], steps[0].get("offset_value") or 0.0
-    if not math.isclose(gain * raw + offset, value, rel_tol=1e-5, abs_tol=1e-9):
-        return []  # a unit or a scaling of the file stands between
-    return [("sum", f"{gain!r} * {raw!r} {offset:+.17g} = {value!r} {found['unit']}")]
 
 
 def _plateaus(found: Found) -> list[tuple[str, Any]]:
@@ -140,7 +122,8 @@ def _sample(found: Found) -> str:
         lines += [(name, where + f"{raw['raw_value']!r}"), ("  SHA-256", raw["sha256"])]
         if raw.get("again"):
             lines.append(("  read again", _again(raw["again"], raw["raw_value"])))
-    lines += _sum(found) + _plateaus(found)
+    total = sum_of(found)
+    lines += ([("sum", total)] if total else []) + _plateaus(found)
     return "sample (rows count from 1)\n" + fields(lines)
 
 

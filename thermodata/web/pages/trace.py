@@ -7,6 +7,8 @@ from typing import Any
 from starlette.requests import Request
 from starlette.responses import Response
 
+from thermodata.report.text.straight_line import offset_of, sum_of
+from thermodata.report.words.numbers import typeset
 from thermodata.store.trace.lineage import trace
 from thermodata.web.command import command
 from thermodata.web.query import seconds_in
@@ -29,11 +31,19 @@ def show(request: Request) -> Response:
         command=command(desk.store_path, *words, "--verify"),
         found=found,
         plateaus=plateaus(found),
+        total=typeset(sum_of(found).replace("*", "×")) if found.get("sample") else "",
+        calibrations=[{**step, "offset": _offset(step)} for step in found.get("calibrations", ())],
         campaign=campaign,
         test=test,
         channel=channel,
         at_s=at_s,
     )
+
+
+def _offset(step: dict[str, Any]) -> str:
+    """In as many digits as the gain beside it."""
+    offset = step.get("offset_value")
+    return typeset(offset_of({**step, "offset_value": offset and float(f"{offset:.6g}")}))
 
 
 def plateaus(found: dict[str, Any]) -> list[tuple[str, list[dict[str, Any]]]]:
