@@ -276,6 +276,8 @@ def test_the_story_by_mouse(served: Served) -> None:
     assert "beside" in served.page.wait("document.querySelector('h1').textContent")
     served.page.look(390, 900)
     served.page.wait(FITS, timeout_s=60)  # two versions beside each other
+    cut = "[...document.querySelectorAll('.scroll:has(.stack)')].filter(t => t.scrollWidth > t.clientWidth).length"
+    assert served.page.js(cut) == 0, "each figure behind the head of its column, none beyond the edge"
     served.page.look(1200, 900)
     # undo: the version before, and both are still there
     served.press("a.quiet[href*='model=" + first.model + "']")

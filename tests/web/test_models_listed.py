@@ -91,6 +91,13 @@ def test_every_model_can_be_ticked_and_twins_are_told_apart(client: Client) -> N
     assert f"<summary>{MODELS - 12} older models</summary>" in page
 
 
+def test_the_ticked_models_stand_first(client: Client) -> None:
+    page = client.get(f"/compare?model={identity(0)}&model={identity(5)}&pin={identity(5)}").text
+    ticks = re.findall(r'name="model" value="(\w+)"( checked)?', page)
+    assert ticks[:2] == [(identity(5), " checked"), (identity(0), " checked")]
+    assert len(ticks) == MODELS
+
+
 def test_pages_take_the_model_that_commands_take_where_none_is_named(lab: Path) -> None:
     at = ["--store", str(lab / "thermodata.store"), "fit"]
     other = lab / "other.yaml"

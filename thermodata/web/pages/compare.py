@@ -135,9 +135,10 @@ def _compared(store: Store, models: list[ModelRow], given: QueryParams) -> _Comp
 
 def _form(of: _Compared) -> dict[str, Any]:
     """The models, by which one chooses, and the channels to draw over."""
+    newest = [m for m in of.models[:_LISTED] if m not in of.chosen]
     return {
         "models": of.models,
-        "listed": [m for i, m in enumerate(of.models) if i < _LISTED or m in of.chosen],
+        "listed": [*of.chosen, *newest],  # what is ticked is seen without looking for it
         "older": [m for m in of.models[_LISTED:] if m not in of.chosen],
         "chosen": of.chosen,
         "pinned": of.pinned,
