@@ -8,8 +8,11 @@ import re
 from pathlib import Path
 from urllib.parse import quote
 
+import numpy as np
+
 from thermodata.store import Store
 
+from ..view.conftest import Builder
 from .client import Client
 from .conftest import client_of, write_headers
 from .test_compare_and_add import finished
@@ -60,6 +63,23 @@ def test_the_views_stand_beside_with_their_units(reader: Client) -> None:
     assert "<summary>temperature</summary>" in text
     assert "[s] from the start of the test" in text
     assert "/sql?q=select" in text
+
+
+def test_views_of_streams_are_folded_where_they_are_many_and_examples_run(reader: Client, tmp_path: Path) -> None:
+    for many in (3, 20):
+        b = Builder(tmp_path / f"of{many}" / "thermodata.store")
+        for i in range(many):
+            b.test(f"c{i:02}", "day")
+            b.channel(f"c{i:02}", "day", "dZ")
+            b.tidy(f"c{i:02}", "day", np.arange(5) * 60.0, {"dZ": np.arange(5.0)})
+        text = html.unescape(client_of(b.store().path.parent)[0].get("/sql").text)
+        names = re.findall(r"<summary>([^<]+)</summary>", text)
+        wide = [name for name in names if name.startswith("wide_c")]
+        assert len(wide) == many
+        assert ("wide_… (20)" in names) is (many == 20)
+        assert names.index("test") < names.index(wide[0]), "below the tables"
+    for address in re.findall(r'<li><a href="(/sql[^"]+)">', reader.get("/sql").text):
+        assert reader.get(html.unescape(address)).status == 200
 
 
 def test_from_a_folder_of_raw_logs_to_a_store(made_lab: Path, tmp_path: Path) -> None:

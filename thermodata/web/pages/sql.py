@@ -21,7 +21,17 @@ from thermodata.web.command import command
 from thermodata.web.render import desk_of, page
 
 EXAMPLES = (
-    ("all tests", "select test, kind, role, duration_s from test"),
+    ("all tests", "select campaign, test, kind, role, duration_s from test"),
+    (
+        "campaigns with their machines",
+        "select campaign, machine, count(*) as tests, sum(duration_s) / 3600 as hours from test "
+        "join machine using (campaign, test) group by all order by 1",
+    ),
+    (
+        "errors over all campaigns",
+        "select campaign, name, model, role, count(*) as tests, max(rmse_um) from score join model using (model) "
+        "where phase = 'all' group by all order by all",
+    ),
     ("errors of a role", "select * from score where role like 'verification%' and phase = 'all'"),
     ("a test on one grid", "select * from binned('{campaign}', '{test}', '60 s')"),
     (
@@ -31,6 +41,7 @@ EXAMPLES = (
 )
 _KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 _TAKEN = Limits(seconds=120, rows=5_000_000)
+_WIDE = "wide_"
 _MOST_CURVES, _MOST_QUERY = 6, 20_000
 _HEIGHT = 260  # of a panel, as the template knows it
 
@@ -64,7 +75,7 @@ def show(request: Request) -> Response:
         x=x,
         plot=script_json(chart.as_json()) if chart else None,
         panels=len(chart.panels) if chart else 0,
-        views=_views(store),
+        **_beside(store),
         examples=_examples(store),
     )
 
@@ -143,6 +154,15 @@ def _float(value: Any) -> float:
         return float(value)
     except (TypeError, ValueError):
         return float("nan")
+
+
+def _beside(store: Store) -> dict[str, Any]:
+    """views: those of the whole store. wide: a view a stream, of which a store of many campaigns has dozens."""
+    found = _views(store)
+    return {
+        "views": [one for one in found if not one[0].startswith(_WIDE)],
+        "wide": [one for one in found if one[0].startswith(_WIDE)],
+    }
 
 
 def _views(store: Store) -> list[tuple[str, list[tuple[str, str, str]]]]:
