@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -124,6 +125,15 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], label: str) -> ModelR
         int(r["fitted"]),
         int(r["tests"]),
     )
+
+
+def read_by(store: Store, model: str, channels: Iterable[str]) -> set[str]:
+    """Those of the channels that drive an effect of the model, by themselves or within an expression."""
+    with store.reader() as con:
+        row = con.execute("select spec from model where model = ?", [model]).fetchone()
+    effects = json.loads(row[0]).get("effects", []) if row else []
+    told = json.dumps([[e.get("drivers"), e.get("also")] for e in effects], ensure_ascii=False)
+    return {name for name in channels if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", told)}
 
 
 def fitted_last(models: Sequence[ModelRow]) -> ModelRow:

@@ -20,7 +20,7 @@ from thermodata.view.curves.predictions import Prediction, predictions, range_fi
 from thermodata.view.curves.rule_for import rules_for
 from thermodata.view.curves.window import Channel, Window, channels_of, read_window
 from thermodata.view.lists.events import About, about_test
-from thermodata.view.lists.models import ModelRow, model_rows, role_in_model, term_order
+from thermodata.view.lists.models import ModelRow, model_rows, read_by, role_in_model, term_order
 from thermodata.view.lists.response_units import measured_units, response_units
 from thermodata.web.chosen import WITHOUT, model_in
 from thermodata.web.command import command
@@ -38,9 +38,9 @@ def show(request: Request) -> Response:
     store = desk.store()
     campaign, test = _named(given)
     known = _known(store, campaign, test)
-    channels, chosen = _channels(known, given)
     models, about = known.models, known.about
     model = _model(store, models, given)
+    channels, chosen = _channels(store, known, model, given)
     predicted = _predicted(store, model, given)
     role = role_in_model(store, model.model, campaign, test) if model else None
     span = _span(given)
@@ -78,8 +78,8 @@ def data(request: Request) -> Response:
     """GET /test/data: the chart of a window in as many points as a screen has."""
     store, given = desk_of(request).store(), _asked(request)
     known = _known(store, *_named(given))
-    _, chosen = _channels(known, given)
     model = _model(store, known.models, given)
+    _, chosen = _channels(store, known, model, given)
     of_model = _of_model(store, _named(given)[0], _predicted(store, model, given), _order(known.models, model))
     chart = _chart(store, known.about, chosen, of_model, given)
     return JSONResponse(chart.as_json())
@@ -156,18 +156,29 @@ def _known_at(store: Store, campaign: str, test: str, mark: str) -> _Known:
     return _Known(channels, models, about_test(store, campaign, test))
 
 
-def _channels(found: _Known, given: Mapping[str, str]) -> tuple[list[Channel], list[Channel]]:
-    """(all, those to draw)."""
+def _channels(
+    store: Store, found: _Known, model: ModelRow | None, given: Mapping[str, str]
+) -> tuple[list[Channel], list[Channel]]:
+    """(all, those to draw). Unasked, as many as can be told apart, those that the model reads and explains first."""
     known = found.channels
     names = given.get("show", "")
     if names == "all":
         return known, known
     if not names:
-        curves = [c for c in known if drawn_as_curve(c)][:_MOST_CURVES]
-        strips = [c for c in known if not drawn_as_curve(c)][:_MOST_STRIPS]
-        return known, [*curves, *strips]
+        curves = [c for c in known if drawn_as_curve(c)]
+        strips = [c for c in known if not drawn_as_curve(c)]
+        if len(curves) <= _MOST_CURVES and len(strips) <= _MOST_STRIPS:
+            return known, [*curves, *strips]
+        of_model = {*read_by(store, model.model, [c.name for c in known]), *model.responses} if model else set[str]()
+        return known, [*_first(curves, _MOST_CURVES, of_model), *_first(strips, _MOST_STRIPS, of_model)]
     wanted = set(names.split(","))
     return known, [c for c in known if c.name in wanted]
+
+
+def _first(channels: list[Channel], most: int, wanted: set[str]) -> list[Channel]:
+    """So many of them in their order, the wanted ones in any case before the others."""
+    kept = {c.name for c in sorted(channels, key=lambda c: c.name not in wanted)[:most]}
+    return [c for c in channels if c.name in kept]
 
 
 def _model(store: Store, models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
