@@ -253,12 +253,11 @@ def compound_unit(left: str, operator: Literal["*", "/"], right: str) -> str:
 def canonical(quantity: str) -> str:
     """The canonical unit of a quantity."""
     if quantity not in CANONICAL_UNIT:
-        close = nearest(quantity, QUANTITIES)
         raise UsageError(
             f"no quantity '{quantity}'",
             expected=", ".join(QUANTITIES),
             got=quantity,
-            hint=f"did you mean '{close}'?" if close else None,
+            hint=f"did you mean '{close}'?" if (close := nearest(quantity, QUANTITIES)) else None,
         )
     return CANONICAL_UNIT[quantity]
 
