@@ -79,3 +79,102 @@ def test_a_draft_asks_with_the_start_that_fits(tmp_path: Path, first_min: int, a
     said = [q for s in draft.sources for q in s.questions if "by its first row" in q]
     assert bool(said) is asked
     assert all("start: 2026-03-02 22:45:00" in q for q in said)
+
+
+def two_logs(folder: Path, hall_min: int, campaign: str = "", hall_rows: int = 60) -> tuple[Store, list[str]]:
+    """Ingests a test of probes from 08:00 on and a log of the hall from a minute of the day on, both without dates."""
+    for name, first, rows, column in (("log", 480, 60, "dZ"), ("hall", hall_min, hall_rows, "T_hall")):
+        cells = [f"{m // 60 % 24:02d}:{m % 60:02d}:00;{m / 10}" for m in range(first, first + rows)]
+        (folder / f"day_{name}.csv").write_text("\n".join([f"Uhrzeit;{column}", *cells, ""]))
+    (folder / "campaign.yaml").write_text(campaign or TWO)
+    store = Store(folder / "s.store", create=True)
+    return store, [str(x) for x in ingest(store, folder / "campaign.yaml").losses]
+
+
+TWO = """\
+schema: thermodata/campaign/1
+id: lab
+machine: {id: m1}
+sources:
+  hall: {reader: table, files: "{test}_hall.csv"}
+  log: {reader: table, files: "{test}_log.csv"}
+channels:
+  T_hall: {source: hall, signal: T_hall, quantity: temperature, unit: degC, at: hall}
+  dZ: {source: log, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp, relative_to: table}
+tests:
+  - {id: day, kind: spindle, role: none}
+"""
+BERLIN = TWO.replace('.csv"}', '.csv", timezone: Europe/Berlin}')
+
+
+def begins(store: Store) -> dict[str, float]:
+    with store.reader() as con:
+        return dict(con.execute("select channel, min(t_s) from sample group by all").fetchall())
+
+
+@pytest.mark.parametrize(
+    ("hall_min", "s"),
+    [
+        (500, 1200.0),
+        (455, -1500.0),  # before the probes
+        (480, 0.0),
+        (481, 60.0),  # clocks that have dates count to the second, too
+        (1430, 57000.0 - 86400.0),  # 23:50 the night before, a log of 12 h
+    ],
+)
+def test_logs_without_dates_keep_what_lies_between_their_times_of_day(tmp_path: Path, hall_min: int, s: float) -> None:
+    store, losses = two_logs(tmp_path, hall_min, hall_rows=720)
+    assert begins(store) == {"dZ": 0.0, "T_hall": s}
+    assert not losses
+
+
+def test_what_begins_at_another_time_of_day_is_told(tmp_path: Path) -> None:
+    two_logs(tmp_path, 500)
+    notes = [str(x) for x in ingest(Store(tmp_path / "t.store", create=True), tmp_path / "campaign.yaml").notes]
+    assert any("'hall' begins 20 min after 'log' by its times of day" in x for x in notes)
+
+
+def test_a_declared_start_is_that_of_the_probes(tmp_path: Path) -> None:
+    store, losses = two_logs(tmp_path, 500, TWO.replace("{id: day,", '{id: day, start: "2026-06-15 08:00",'))
+    assert begins(store) == {"dZ": 0.0, "T_hall": 1200.0}
+    assert not losses
+
+
+def test_logs_of_two_zones_are_put_together_by_the_date_of_the_start(tmp_path: Path) -> None:
+    zones = BERLIN.replace('hall.csv", timezone: Europe/Berlin', 'hall.csv", timezone: UTC')
+    store, losses = two_logs(tmp_path, 380, zones.replace("{id: day,", '{id: day, start: "2026-06-15 08:00",'))
+    assert begins(store) == {"dZ": 0.0, "T_hall": 1200.0}  # 06:20 UTC is 08:20 there in summer
+    assert not losses
+
+
+def test_zones_without_a_date_are_asked(tmp_path: Path) -> None:
+    _, losses = two_logs(
+        tmp_path, 380, BERLIN.replace('hall.csv", timezone: Europe/Berlin', 'hall.csv", timezone: UTC')
+    )
+    assert any("try: give the test its start" in x for x in losses)
+
+
+def test_a_log_that_says_that_they_began_together_does(tmp_path: Path) -> None:
+    store, losses = two_logs(tmp_path, 500, TWO.replace('hall.csv"}', 'hall.csv", clock: {offset: 0 s}}'))
+    assert begins(store) == {"dZ": 0.0, "T_hall": 0.0}
+    assert not losses
+
+
+@pytest.mark.parametrize(("campaign", "asked"), [(TWO, True), (BERLIN, False)])
+def test_whole_hours_apart_are_asked_where_nobody_says_the_zone(tmp_path: Path, campaign: str, asked: bool) -> None:
+    store, losses = two_logs(tmp_path, 540, campaign, hall_rows=120)
+    assert any("which may be the zones of two clocks" in x for x in losses) is asked
+    assert begins(store)["T_hall"] == 3600.0
+    draft = draft_files(tmp_path, force=True).draft
+    assert any("begins 1 h after" in q or "begins 1 h before" in q for s in draft.sources for q in s.questions)
+
+
+def test_a_log_that_fits_on_two_days_is_asked(tmp_path: Path) -> None:
+    _, losses = two_logs(tmp_path, 470, hall_rows=3000)
+    assert any("runs with it on another day as well" in x for x in losses)
+
+
+def test_a_log_that_begins_at_midnight_may_count_from_its_start(tmp_path: Path) -> None:
+    store, losses = two_logs(tmp_path, 0)
+    assert any("'hall' begins at 0:00" in x and "{offset: -28800 s}" in x for x in losses)
+    assert begins(store) == {"dZ": 0.0, "T_hall": 0.0}

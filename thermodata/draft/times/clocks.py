@@ -10,6 +10,7 @@ from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.times.hours_apart import hours_question
 from thermodata.draft.times.on_another_day import on_another_day
 from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
@@ -68,7 +69,7 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
                     f"{begun_together(group.source, begins)} if they begin together, or give each test its "
                     f"start{also}: 2026-03-04 08:15"
                 )
-    return None
+    return hours_question(group, groups)
 
 
 def _by_its_clock(test: str, files: Sequence[RawFile], other: Group) -> str | None:

@@ -92,7 +92,7 @@ def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:
     sources = plan.reference
     begin = min((int(clocks[s.name].correct(np.array([first_ns(s)]), first_ns(s))[0]) for s in sources), default=0)
     with_data = [s for s in plan.sources.values() if s.raws]
-    relative = not sources or all(is_relative(s) and not clocks[s.name].base_ns for s in with_data)
+    relative = not sources or (plan.test.start is None and all(map(is_relative, with_data)))
     if plan.test.window is None:
         return Span(begin, None, None, False, relative)
     a, b = (begin + round(x * 1e9) for x in plan.test.window)

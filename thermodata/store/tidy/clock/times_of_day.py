@@ -18,12 +18,21 @@ def began(of_day_ns: int, first_ns: int, timezone: str | None) -> str | None:
     that is another time: '2026-03-02 22:45:00'. None where they begin together, or by whole hours apart on clocks of
     which nobody says the zone."""
     local_ns = first_ns + (utc_offset_ns(timezone, first_ns // 10**9) if timezone is not None else 0)
-    apart_ns = (of_day_ns - local_ns + DAY_NS // 2) % DAY_NS - DAY_NS // 2
-    beside_hours = abs((apart_ns + _HOUR_NS // 2) % _HOUR_NS - _HOUR_NS // 2)
-    if abs(apart_ns) <= NEAR_NS or (timezone is None and beside_hours <= NEAR_NS):
+    apart = apart_ns(of_day_ns, local_ns)
+    if abs(apart) <= NEAR_NS or (timezone is None and hours_apart(apart)):
         return None
-    moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=(local_ns + apart_ns) // 1000)
+    moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=(local_ns + apart) // 1000)
     return f"{moment:%Y-%m-%d %H:%M:%S}"
+
+
+def apart_ns(of_day_ns: int, there_ns: int) -> int:
+    """By how much a time of day is after another, on the day on which they are nearest [ns]."""
+    return (of_day_ns - there_ns + DAY_NS // 2) % DAY_NS - DAY_NS // 2
+
+
+def hours_apart(ns: int) -> bool:
+    """Whether what lies between two clocks [ns] is whole hours, as between those of two zones."""
+    return abs(ns) > NEAR_NS and abs((ns + _HOUR_NS // 2) % _HOUR_NS - _HOUR_NS // 2) <= NEAR_NS
 
 
 def first_of(of_days: Sequence[int | None]) -> int | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.reader.times.step_back import in_words
 from thermodata.reader.times.zone import utc_offset_ns
+from thermodata.store.tidy.clock.beside import by_times_of_day
 from thermodata.store.tidy.clock.source_clock import Clock, first_ns, is_relative, last_ns, start_ns
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
@@ -34,11 +35,14 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
                 f"test '{plan.test.id}': start is {start}, but its recordings have dates of their own, "
                 f"{apart_s:+.0f} s from it: these count; try: take 'start' away, or set clock: {{offset: ...}}"
             )
-    if start is not None and (probes or not dated):
-        for source in undated:
-            base_ns[source.name] = start_ns(start, plan, source)
-        plan.problems += _beside(plan, base_ns, dated, undated)
-    elif dated:
+    if not dated or (start is not None and probes):
+        if start is not None:
+            base_ns |= {s.name: start_ns(start, plan, s) for s in undated}
+        placed, notes = by_times_of_day(plan, [s for s in undated if not _is_told(s)], base_ns)
+        base_ns |= placed
+        if start is not None:
+            plan.problems += _beside(plan, base_ns, dated, undated)
+    else:
         with_dates = [s for s in plan.reference if s in dated] or dated
         for source in undated:
             base_ns[source.name] = min(map(_first_declared, with_dates))
