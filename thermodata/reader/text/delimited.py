@@ -123,8 +123,8 @@ def describe(table: Table, source: Source) -> Recording:
         if table.absolute:
             start = min(starts, default=0)
             notes += _zone_notes(table, source, start)
-        elif len(reader.groups) == 1:
-            of_day = reader.groups[0].clock.days.first_ns
+        elif len(zeros := {group.clock.zero_ns for group in reader.groups}) == 1:
+            of_day = zeros.pop()
     if table.begin is not None:
         notes.append(table.begin.note())
     else:

@@ -30,6 +30,7 @@ from thermodata.reader.text.preamble.begin import (
     first_times,
     unused_start,
 )
+from thermodata.reader.text.preamble.together import begin_later_ns
 from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.look_at_columns import look_at_columns
@@ -126,7 +127,7 @@ def find_table(
         delimiter=whole.delimiter,
         quoted=whole.quoted,
         layout=layout,
-        groups=groups,
+        groups=groups if begin is not None else _on_one_clock(table),
         kinds=columns.kinds,
         decimal=columns.decimal,
         decimal_declared=columns.decimal_is_told,
@@ -207,6 +208,16 @@ def _begin(table: Sampled, above: Iterable[list[str]]) -> tuple[Begin | None, st
         return begin, doubt
     stands = f"'{begin.text[:60]}' stands above the rows, {NOT_TAKEN}"
     return None, f"{stands}: some columns count from a start, others tell times of day"
+
+
+def _on_one_clock(table: Sampled) -> tuple[TimedGroup, ...]:
+    """Groups that tell times of day without a date, on the clock of the earliest."""
+    groups = table.groups
+    if len(groups) < 2 or not all(g.of_day for g in groups):
+        return groups
+    rows = [still_going(table.body, g.group, table.layout) for g in groups]
+    firsts = [first_times(g.group.time, None, g.formats, own) for g, own in zip(groups, rows, strict=True)]
+    return tuple(replace(g, later_ns=ns) for g, ns in zip(groups, begin_later_ns(firsts), strict=True))
 
 
 def _of_names(layout: Layout, kinds: Sequence[str | None]) -> Iterator[str]:

@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.arrow import values
 from thermodata.reader.text.cells.number import Values
+from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.table import TimedGroup
@@ -39,6 +40,12 @@ class RowClock:
             int, Begin
         ] = {}  # of lines in the chunk that is read next, behind which rows count from another
 
+    @property
+    def zero_ns(self) -> int | None:
+        """The time of day that its times count from; None before there is one, and where they are none."""
+        first = self.days.first_ns
+        return None if first is None else (first - self.timed.later_ns) % DAY_NS
+
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
         ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
@@ -62,7 +69,7 @@ class RowClock:
         if self.timed.of_day:
             ns = self._of_day(ns)
             if self.begin is None:
-                return ns
+                return np.where(ns == NAT, NAT, ns + np.int64(self.timed.later_ns))
         if self.begin is not None and not self.begin.of_day:
             return self.begin.utc(ns, self.timezone)
         good = ns != NAT

@@ -33,7 +33,7 @@ Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header
 class TimedGroup:
     """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
     that their headers, or a line above the rows, say, None where they say none; once: the date stands in some rows
-    only, for those behind it; above: that line."""
+    only, for those behind it; above: that line; later_ns: by how much times of day begin after the earliest group's."""
 
     stream: str
     group: Group
@@ -41,6 +41,7 @@ class TimedGroup:
     stated: str | None = None
     once: bool = False
     above: str = ""
+    later_ns: int = 0
 
     @property
     def of_day(self) -> bool:

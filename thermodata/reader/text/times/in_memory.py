@@ -32,6 +32,11 @@ class Stamps:
     zero_ns: int = 0
     of_day: bool = False
 
+    def later(self, by_ns: int) -> Stamps:
+        """The same on a clock that began so much earlier."""
+        moved = np.where(self.t_ns == NAT, NAT, self.t_ns + np.int64(by_ns))
+        return replace(self, t_ns=moved, zero_ns=self.zero_ns - by_ns) if by_ns else self
+
 
 def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | None, where: str) -> Stamps:
     """Times of a column of texts, in UTC; times of day without a date count from the first.

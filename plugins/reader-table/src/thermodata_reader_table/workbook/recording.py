@@ -7,7 +7,7 @@ signals are `sheet/name`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -16,9 +16,12 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
+from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.page.one_clock import one_clock
-from thermodata.reader.text.preamble.begin import NOT_TAKEN
+from thermodata.reader.text.preamble.begin import NOT_TAKEN, ROWS, FirstTimes
+from thermodata.reader.text.preamble.together import begin_later_ns
+from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook.book import Book, book_of
@@ -39,6 +42,7 @@ class Read:
     losses: list[Loss]
     clock: Literal["absolute", "relative"]
     start_ns: int | None
+    of_day_ns: int | None = None
 
 
 def read(path: Path, source: Source) -> Read:
@@ -84,8 +88,24 @@ def read(path: Path, source: Source) -> Read:
         elif count:
             reason = f"{counted(count, 'cell')} of the workbook {kind}: {they} empty"
             losses.append(Loss(path.name, reason=reason))
+    streams, of_day_ns = _on_one_clock(streams)
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
-    return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+    return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns, of_day_ns)
+
+
+def _on_one_clock(streams: list[Stream]) -> tuple[list[Stream], int | None]:
+    """(streams that tell times of day without a date on the clock of the earliest, the time of day of its zero). None
+    where they have no one clock, or begin at their zero, as durations do."""
+    firsts = [_first_of_day(s.times) for s in streams]
+    moved = [replace(s, times=s.times.later(ns)) for s, ns in zip(streams, begin_later_ns(firsts), strict=True)]
+    zeros = {s.times.zero_ns % DAY_NS for s in moved}
+    told = len(zeros) == 1 and all(first is not None and not first.near_zero for first in firsts)
+    return moved, zeros.pop() if told else None
+
+
+def _first_of_day(times: Stamps) -> FirstTimes | None:
+    good = times.t_ns[times.t_ns != NAT][:ROWS]
+    return FirstTimes(tuple((good + times.zero_ns).tolist()), True) if times.of_day and good.size else None
 
 
 def _streams(
@@ -125,7 +145,7 @@ def describe(path: Path, source: Source) -> Recording:
         for s in found.streams
         for name, v in s.values.items()
     )
-    return Recording(signals, found.clock, found.start_ns, None, tuple(found.notes))
+    return Recording(signals, found.clock, found.start_ns, None, tuple(found.notes), found.of_day_ns)
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
