@@ -72,3 +72,11 @@ def test_sheets_keep_what_lies_between_their_times_of_day(
     data = read_sheets(tmp_path, {f"s{k}": cells(h) for k, h in enumerate(firsts_h)}, Source())
     assert [round(x, 3) for x in begins_min(data)] == begins
     assert data.recording.of_day_ns == pytest.approx(None if of_day_h is None else of_day_h * HOUR)
+
+
+def test_blocks_of_a_sheet_under_a_row_of_units_have_times_of_their_own(tmp_path: Path) -> None:
+    head: list[list[object]] = [["Ora", "dZ", "Ora", "dZ"], ["hh:mm:ss", "µm", "hh:mm:ss", "µm"]]
+    rows: list[list[object]] = [[1 / 3 + n / 1440, n / 10, 9.5 / 24 + n / 720, n / 5] for n in range(20)]
+    data = read_sheets(tmp_path, {"s": sheet([*head, *rows], (3, 0, 3, 0))}, Source())
+    assert [round(x, 3) for x in begins_min(data)] == [0, 90]
+    assert {s.name: s.stream for s in data.recording.signals} == {"dZ": "Ora", "dZ#2": "Ora#2"}

@@ -170,14 +170,15 @@ def _beside(run: Sequence[int], said: Mapping[int, _Name], seen: FirstRows) -> b
 
 
 def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[Cell]]) -> bool:
-    """Dates, or numbers that never fall; what is only called t must rise with every row."""
-    if unit is not None and known_unit(unit) is None:
-        return False
+    """Dates and times of day, whose unit says how they are written ("hh:mm:ss"), or numbers of a unit of time that
+    never fall; what is only called t must rise with every row."""
     cells = [r[column] for r in data if not is_empty(r[column])]
     if len(cells) < 2:
         return False
     if sum(map(is_stamp, cells)) > 0.8 * len(cells):
         return True
+    if unit is not None and known_unit(unit) is None:
+        return False
     values = np.array([v for c in cells if is_number(c) and (v := number_of(c)) is not None])
     if values.size < max(2, 0.8 * len(cells)) or values[-1] <= values[0]:
         return False

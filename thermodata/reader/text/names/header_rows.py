@@ -66,7 +66,7 @@ def _read(
         times = _times_among(spanning[-1 if named is None else named])
         if named is not None and (below := next((r for r in spanning[named + 1 :] if of_units(r, times)), None)):
             units = units_below(spanning[named], below)
-        elif of_units(spanning[-1], _times_among(spanning[-2])):
+        elif of_units(spanning[-1], _times_among(spanning[-2], again=True)):
             units = as_units(spanning.pop())
         elif _units_among(spanning[-2], spanning[-1]):
             units = known_units(spanning.pop())

@@ -17,7 +17,10 @@ _TYPE = re.compile(
 # what recorders call such a row in its first cell, and the column of messages in its last
 _ROW_CALLED = re.compile(r"(?i)(data )?type|kind")
 _MESSAGES = re.compile(r"(?i)messages?|count")
-_OF_TIME = re.compile(r"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|hh?:mm(?::ss)?)[\])]?")
+# how times are written, in languages of spreadsheets: hh:mm:ss, TT.MM.JJJJ hh:mm, gg/mm/aaaa, yyyy-MM-ddTHH:mm:ss.fff
+_PART = r"(?:[dgt]{1,2}|m{1,3}|[hs]{1,2}|y{2,4}|[jar]{2,4}|f{1,9}|0{1,9})"
+_FORM = rf"(?i:(?=.*(?::|yy|jj|aa|rr)){_PART}(?:(?:[.:/,_ -]{{1,2}}|(?<=d)t(?=h)){_PART})+)"
+_OF_TIME = re.compile(rf"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|{_FORM})[\])]?")
 # what loggers write in the row of units for stamps, numbers of records and alarms
 _NO_UNIT = re.compile(r"(?i)ts|rn|no\.?|time|zeit|date|datum|-+|alarm.*|[a-z]\d{3,}")
 _ALARMS = re.compile(r"(?i)a1234(567890)?")  # the alarms of a logger by their numbers
