@@ -151,3 +151,17 @@ def test_a_value_stands_in_the_column_of_its_type(tmp_path: Path, tag: str, none
     values = {n: list(dict.fromkeys(v[np.isfinite(v)].tolist())) for (_, n), v in data.values.items()}
     assert values == {names[0]: [21 + k / 8 for k in range(40)], names[1]: [4000.0 + k for k in range(40)]}
     assert not data.losses
+
+
+def test_a_tag_that_dies_has_no_value_beyond_ten_of_its_steps(tmp_path: Path) -> None:
+    rows = [
+        f"2026-03-02T08:{k // 60:02d}:{k % 60:02d}Z;{tag};{20 + (k * 7 % 5) / 10};192"
+        for k in range(120)
+        for tag in ("T_bed", "T_dead")
+        if tag == "T_bed" or not 50 <= k < 90
+    ]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time;tag;value;quality", *rows, ""]))
+    data = load(Reader(), path, Source())
+    dead = np.isnan(data.values["nc", "T_dead"])
+    assert np.flatnonzero(dead).tolist() == list(range(60, 90))

@@ -220,3 +220,38 @@ KIT = {
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
 def test_kit(tmp_path: Path, number: int, kind: str) -> None:
     reader_checks(Reader, [(written(tmp_path, KIT[kind]), Source())])[number]()
+
+
+def dying(k: int, name: str) -> list[dict[str, Any]]:
+    """A name each second, and one that is silent for 40 s, both with noise in the last digit."""
+    noise = 20 + (k * 7 % 5) / 10
+    own = [] if 50 <= k < 90 else [{"ts": iso(k), "topic": "T_dead", name: noise}]
+    return [{"ts": iso(k), "topic": "T_bed", name: noise}, *own]
+
+
+def test_a_sensor_that_dies_has_no_value_beyond_ten_of_its_steps(tmp_path: Path) -> None:
+    data = read(tmp_path, [m for k in range(120) for m in dying(k, "value")])
+    dead = data.values["nc", "T_dead"]
+    assert np.flatnonzero(np.isnan(dead)).tolist() == list(range(60, 90))
+    flags = data.flags["nc", "T_dead"]
+    assert (flags[60:90] == Flag.NOT_MEASURING).all()
+    assert flags[90] == Flag.GAP
+    assert not np.isnan(data.values["nc", "T_bed"]).any()
+
+
+def test_a_value_on_change_holds_however_long_it_is_silent(tmp_path: Path) -> None:
+    messages = [{"ts": iso(k), "topic": "T_bed", "value": 20 + (k * 7 % 5) / 10} for k in range(120)]
+    messages[40:40] = [{"ts": iso(40), "topic": "n", "value": 3000}]
+    messages[100:100] = [{"ts": iso(99), "topic": "n", "value": 0}]
+    data = read(tmp_path, messages)
+    assert data.values["nc", "n"][41:90].tolist() == [3000.0] * 49
+
+
+def test_a_metric_that_is_null_has_no_value(tmp_path: Path) -> None:
+    def metric(k: int) -> dict[str, Any]:
+        told = {"isNull": True} if k in (2, 3) else {"isNull": False, "value": 20.0 + k}
+        return {"timestamp": (START_S + k) * 1000, "metrics": [{"name": "CH1/T", "dataType": "Double", **told}]}
+
+    data = read(tmp_path, [metric(k) for k in range(6)])
+    ((_, column),) = data.values.items()
+    assert np.isnan(column).tolist() == [False, False, True, True, False, False]

@@ -3,7 +3,8 @@
 The one way that readers of event logs share (SHDR, MTConnect, OPC UA, on-change traces), so that all of them hold,
 start and break off alike. No value (before the first, while the source says UNAVAILABLE) is NaN or None and flagged
 as not measuring; the first value after such a hole is flagged as the first after a gap; a value that the source itself
-calls bad is kept and flagged as not measuring for as long as it holds.
+calls bad is kept and flagged as not measuring for as long as it holds. Of a signal that is written at a steady beat a
+value ends where that is missed (`Beat`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D
+from thermodata.reader.signals.beat import Beat
 from thermodata.schema.flag import Flag
 
 Value = float | str | None
@@ -32,11 +34,20 @@ class HeldRows(Generic[Stamp]):
 
     dtypes: signal -> "str" or a number's. ordered: the log's own order is the order of its rows, as recorded; else
     rows are sorted by time inside a block, so that stamps of several clocks in one table do not step back (a step of
-    a minute or more is no such jitter and stays where it is).
+    a minute or more is no such jitter and stays where it is). beats: of signals that are written at one.
     """
 
-    def __init__(self, dtypes: Mapping[str, str], stream: str, ordered: bool = True, keep_all: bool = False) -> None:
+    def __init__(
+        self,
+        dtypes: Mapping[str, str],
+        stream: str,
+        ordered: bool = True,
+        keep_all: bool = False,
+        beats: Mapping[str, Beat] | None = None,
+    ) -> None:
         self.stream, self._ordered, self._keep_all = stream, ordered, keep_all
+        self._beats = beats or {}
+        self._written: dict[str, int] = {}  # when the value that is held was [ns]
         self._dtypes = dict(dtypes)
         self._held: dict[str, tuple[Value, int]] = dict.fromkeys(self._dtypes, (None, _NONE))
         self._seen: set[str] = set()
@@ -88,7 +99,7 @@ class HeldRows(Generic[Stamp]):
         values: dict[str, Array] = {}
         flags: dict[str, Array] = {}
         for name, dtype in self._dtypes.items():
-            values[name], flag = self._column(name, dtype, place, times.size)
+            values[name], flag = self._column(name, dtype, place, times)
             if flag.any():
                 flags[name] = flag
         at = self._first_at(place, times.size)
@@ -128,7 +139,8 @@ class HeldRows(Generic[Stamp]):
         np.minimum.at(first, place[place >= 0], np.array(known, np.int64)[place >= 0])
         return first
 
-    def _column(self, name: str, dtype: str, place: Int1D, n: int) -> tuple[Array, Array]:
+    def _column(self, name: str, dtype: str, place: Int1D, times: Int1D) -> tuple[Array, Array]:
+        n = times.size
         kind = object if dtype == "str" else np.float64
         rows, values, flags = self._changes.get(name, ([], [], []))
         at = place[rows] if rows else np.empty(0, np.int64)
@@ -151,7 +163,25 @@ class HeldRows(Generic[Stamp]):
             marked[gaps] |= np.uint16(Flag.GAP)
         last = known[-1]
         self._held[name] = (None if last is None or last != last else last, int(marks[-1]))
-        return known[which], marked
+        column = known[which]
+        if name in self._beats:
+            self._end(name, column, marked, np.append(self._written.get(name, NAT), times[at[order]])[which], times)
+        return column, marked
+
+    def _end(self, name: str, column: Array, marked: Array, written: Int1D, times: Int1D) -> None:
+        """Ends values that stand for longer than their beat. written: when each row's was, shape (n,), NAT before the
+        first; column, marked: values and flags, changed in place."""
+        beat = self._beats[name]
+        none = column.dtype.type(np.nan) if column.dtype.kind == "f" else None
+        told = written != NAT
+        before = np.append(self._written.get(name, NAT), written[:-1])
+        anew = told & (before != NAT) & (written != before)
+        held = np.append(column[:1], column[:-1])
+        again = anew & beat.ended(held, np.where(anew, written - before, 0))
+        old = told & beat.ended(column, np.where(told, times - written, 0))
+        column[old], marked[old] = none, marked[old] | np.uint16(_NONE)
+        marked[again] |= np.uint16(Flag.GAP)
+        self._written[name] = int(written[-1]) if written.size else NAT
 
 
 def _turns(times: Int1D) -> Int1D:

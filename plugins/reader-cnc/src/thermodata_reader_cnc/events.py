@@ -5,11 +5,14 @@ That an item keeps its value until the next report is what these formats say; UN
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import numpy as np
+
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.signals.beat import Beat, beat_of
 from thermodata.reader.signals.events import HeldRows, Value
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.number import is_empty, is_overload, to_bool, to_float
@@ -98,6 +101,7 @@ class Plan:
     first: str | None
     apart: bool = False
     form: TimeFormat = ISO
+    beats: Mapping[str, Beat] = field(default_factory=dict)
 
     def stream(self, key: str) -> str:
         return key if self.apart else STREAM
@@ -124,6 +128,24 @@ def plan(
         taken.update(t.name for t in signals)
         fed[key] = signals
     return Plan(fed, first, sum(map(len, fed.values())) > _MOST_TOGETHER, form)
+
+
+def beats_of(events: Iterable[Event | Loss], form: TimeFormat = ISO) -> dict[str, Beat]:
+    """The beats of items, by key, of logs that say nothing of when they write. events: those at the head of one, as
+    they follow each other."""
+    found: dict[str, tuple[list[str], list[str]]] = {}
+    for event in events:
+        if isinstance(event, Event):
+            times, values = found.setdefault(event.key, ([], []))
+            times.append(event.time)
+            values.append(event.value)
+    beats = dict[str, Beat]()
+    for key, (times, values) in found.items():
+        t_ns = timestamp.parse(times, form)
+        numbers = np.array([np.nan if (v := to_float(text)) is None else v for text in values])
+        beat = beat_of(t_ns, values, numbers) if (t_ns != NAT).all() else None
+        beats |= {} if beat is None else {key: beat}
+    return beats
 
 
 def to_utc(times: list[str], clock: LocalClock, form: TimeFormat = ISO) -> Int1D:
@@ -174,10 +196,11 @@ class HeldTable:
         self.clock = LocalClock(source.timezone)
         self._rows: dict[str, HeldRows[str]] = {}
         groups: dict[str, dict[str, str]] = {}
+        beats = {t.name: plan.beats[key] for key, fed in plan.items.items() if key in plan.beats for t in fed}
         for key, fed in plan.items.items():
             groups.setdefault(plan.stream(key), {}).update({t.name: t.dtype for t in fed})
         for stream, dtypes in groups.items():
-            self._rows[stream] = HeldRows(dtypes, stream, ordered, keep_all)
+            self._rows[stream] = HeldRows(dtypes, stream, ordered, keep_all, beats)
         widest = max(map(len, groups.values()), default=1)
         self._most = max(1, _MOST_VALUES // widest)
         self._waiting = 0

@@ -96,7 +96,8 @@ def _key(report: Report, labels: Sequence[int]) -> str:
 def _look(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
     lines = [text for line in (*first.head, *first.rest) if (text := _object_of(line))]
-    messages = [found for text in lines if (found := _read(text))]
+    head, rest = ([found for line in part if (found := _read(_object_of(line)))] for part in (first.head, first.rest))
+    messages = [*head, *rest]
     every = [report for found in messages for report in found if report.time]
     said = (source.table or {}).get("time")
     form = time_form([r.time for r in every], path.name, said.get("format") if isinstance(said, Mapping) else None)
@@ -116,7 +117,8 @@ def _look(path: Path, source: Source) -> _Look:
     zero = declared_zero(source.table, zero_is_good([r.quality for r in every], _ZERO_OF), _ZERO_OF, path.name)
     sets = {tuple(sorted(_key(r, labels) for r in found)) for found in messages}
     keys = next(iter(sets)) if len(sets) == 1 and len(next(iter(sets))) > 1 else ()
-    plan = events.plan((Event(r.time, _key(r, labels), _value(r), 0, "") for r in every), form=form)
+    plan = events.plan(_heard(messages, labels), form=form)
+    plan = replace(plan, beats=events.beats_of(_heard(head, labels), form))
     return _Look(
         plan,
         first.encoding,
@@ -128,6 +130,11 @@ def _look(path: Path, source: Source) -> _Look:
         _times_of(lines),
         (first.note,) if first.note else (),
     )
+
+
+def _heard(messages: Iterable[Sequence[Report]], labels: Sequence[int]) -> Iterator[Event]:
+    """What messages of the first look report."""
+    return (Event(r.time, _key(r, labels), _value(r), 0, "") for found in messages for r in found if r.time)
 
 
 def _telling(every: Iterable[Report]) -> tuple[int, ...]:

@@ -71,7 +71,9 @@ def _of_object(message: Mapping[str, Any], at: _Place) -> Iterator[Report]:
     time = _time(message, shape) or at.time
     labels = (*at.labels, *(_text(message[k]) for k in shape.labels if _is_scalar(message[k])))
     name = _text(message[shape.name]) if shape.name is not None and _is_scalar(message[shape.name]) else ""
-    if shape.value is not None and (name or at.name):
+    if shape.null is not None and message[shape.null] is True and (name or at.name):
+        yield Report(time, labels, "/".join(filter(None, (at.name, name))), GONE)
+    elif shape.value is not None and (name or at.name):
         yield from _of_value(message, shape, _Place(time, labels, "/".join(filter(None, (at.name, name))), at.depth))
     else:
         labels = (*labels, name) if name else labels

@@ -19,13 +19,14 @@ _ID = "id"  # names what is beside a value, and elsewhere the message
 _OF_MESSAGE = frozenset(
     {"qos", "retain", "dup", "mid", "payloadlen", "properties", "seq", "rseq", "qx", "datatype", "alias"}
 )
+_NULL = "isnull"  # of Sparkplug, in place of a value
 QC = "qc"  # of Industrial Edge: 0 is bad, 1 uncertain, 2 and 3 good
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """Keys of an object, None where it has none of the kind. times: the keys of its time, and its zone; of_message:
-    those that say something of the message."""
+    """Keys of an object, None where it has none of the kind. times: the keys of its time, and its zone; null: says that
+    there is no value; of_message: those that say something of the message."""
 
     times: Times | None
     time: str | None
@@ -33,13 +34,14 @@ class Shape:
     value: str | None
     unit: str | None
     quality: str | None
+    null: str | None
     labels: tuple[str, ...]
     of_message: frozenset[str]
 
     @property
     def told(self) -> frozenset[str]:
         """The keys that are no values of their own."""
-        kinds = (self.time, self.name, self.value, self.unit, self.quality, *self.labels)
+        kinds = (self.time, self.name, self.value, self.unit, self.quality, self.null, *self.labels)
         return frozenset(k for k in kinds if k is not None) | self.of_message
 
 
@@ -66,6 +68,7 @@ def shape_of(keys: tuple[str, ...]) -> Shape:
         value,
         first(UNIT_WORDS),
         first((QC,)) or (None if quality is None or value is None else quality[1]),
+        first((_NULL,)),
         tuple(k for k, n in zip(keys, names, strict=True) if n in LABEL_WORDS and k not in (name, value)),
         frozenset(k for k, n in zip(keys, names, strict=True) if n in _OF_MESSAGE),
     )

@@ -181,7 +181,7 @@ def _look(path: Path, source: Source) -> _Look:
         notes.append(f"not read, beside the value: {', '.join(repr(name) for name in layout.unread)}")
     return _Look(
         layout,
-        replace(plan, apart=plan.apart or by_tag),
+        replace(plan, apart=plan.apart or by_tag, beats=events.beats_of(head, plan.form)),
         first.encoding,
         by_tag,
         first.ends_with_newline,
