@@ -235,3 +235,47 @@ def test_times_of_a_clock_that_is_set_back_within_a_word_part_nothing() -> None:
     t_ns = np.concatenate([np.arange(300), np.arange(100, 400)]) * S
     no_series(["warm"] * 250 + ["cold"] * 350, "state", t_ns)
     assert all(b - a == S for a, b in pairwise(t_ns[:300].tolist()))
+
+
+def numbered(times: dict[str, np.ndarray], level: float = 5.0) -> tuple[np.ndarray, Array, Array]:
+    t_ns, names, temperature = rows(times, level=level)
+    return t_ns, np.array([float(name) for name in names]), temperature
+
+
+IN_TURN = {"1": EACH_10_S, "2": EACH_10_S + 3.3}
+
+
+@pytest.mark.parametrize(
+    "header", ["ch", "Sensor Nr", "slave", "port", "probe_no", "unit_id", "addr", "Fuehler", "rom_id", "Serial No."]
+)
+def test_numbers_whose_header_says_which_sensor_it_is_part_rows(header: str) -> None:
+    t_ns, numbers, temperature = numbered(IN_TURN)
+    assert series_columns(t_ns, {header: numbers, "T": temperature}, absolute=True).tags == (header,)
+    texts = words([f"0x4{int(n)}" for n in numbers])
+    assert series_columns(t_ns, {header: texts, "T": temperature}, absolute=True).tags == (header,)
+
+
+@pytest.mark.parametrize("header", ["unit", "n", "k"])
+def test_numbers_that_come_in_turn_and_move_all_values_are_doubtful(header: str) -> None:
+    t_ns, numbers, temperature = numbered(IN_TURN)
+    assert doubtful(t_ns, {header: numbers, "T": temperature}) == (header,)
+    polled = {"1": np.arange(300) * 4.0, "2": np.arange(300) * 4.0 + 2}
+    t_ns, numbers, temperature = numbered(polled)
+    assert doubtful(t_ns, {header: numbers, "T": temperature}) == (header,)
+
+
+def test_numbers_in_turn_that_move_nothing_are_counters() -> None:
+    t_ns, numbers, temperature = numbered(IN_TURN, level=0.0)
+    parting = series_columns(t_ns, {"k": numbers, "T": temperature}, absolute=True)
+    assert not parting.tags
+    assert not parting.doubtful
+
+
+def test_a_speed_that_stands_for_minutes_is_no_id() -> None:
+    t_s = np.arange(1200) * 1.0
+    speed = np.where(t_s // 120 % 2 > 0, 3000.0, 0.0)
+    parting = series_columns(
+        np.rint(t_s * S).astype(np.int64), {"n": speed, "P": speed / 10 + t_s / 1e4}, absolute=True
+    )
+    assert not parting.tags
+    assert not parting.doubtful

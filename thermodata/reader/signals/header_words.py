@@ -35,6 +35,9 @@ SENSOR_IDS = (
     "probeid",
     "tagindex",
     "tagid",
+    *("ch", "chno", "chnr", "channelno", "channelnr", "kanalnr", "sensornr", "sensornumber", "probeno", "probenr"),
+    *("fühlernr", "fuehlernr", "slave", "slaveid", "unitid", "port", "addr", "address", "adresse", "mac", "macaddress"),
+    *("rom", "romid", "epc", "eui", "deveui", "serial", "serialno", "serialnr", "serialnumber"),
 )
 # and which of several machines wrote a row
 HOST_IDS = (
@@ -53,7 +56,18 @@ HOST_IDS = (
 SENSOR_WORDS = (
     *SENSOR_IDS,
     *("sensor", "probe"),
-    *("measurand", "messstelle", "messpunkt", "fühler", "senzor", "čidlo", "capteur", "sonda", "thermocouple"),
+    *(
+        "measurand",
+        "messstelle",
+        "messpunkt",
+        "fühler",
+        "fuehler",
+        "senzor",
+        "čidlo",
+        "capteur",
+        "sonda",
+        "thermocouple",
+    ),
 )
 # columns that name where a value comes from, or what is told of it
 LABEL_WORDS = (

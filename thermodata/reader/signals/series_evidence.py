@@ -104,7 +104,8 @@ def judge(rows: Rows, header: Header, *, absolute: bool) -> Verdict:
         return Verdict.PLAIN
     if header.named:
         return Verdict.PLAIN if words and far_apart else Verdict.DOUBTFUL
-    return Verdict.DOUBTFUL if words and _jumps(rows) == 1.0 else Verdict.ONE
+    # numbers that come in turn, as sensors that are asked one after the other, and move all values, may be these
+    return Verdict.DOUBTFUL if (words or (in_turn and even)) and _jumps(rows) == 1.0 else Verdict.ONE
 
 
 def _plain(so: bool) -> Verdict:

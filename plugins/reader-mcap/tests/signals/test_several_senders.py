@@ -110,3 +110,22 @@ def test_senders_are_not_taken_apart_where_it_is_declared(tmp_path: Path, write:
     recording, times, _, _, _ = read(path)
     assert len(times) == 3
     assert any("options: {series: none}" in note for note in recording.notes)
+
+
+@pytest.mark.parametrize("field", ["ch", "sensor", "slave"])
+def test_a_sender_may_be_a_number(tmp_path: Path, write: Any, read: Any, field: str) -> None:
+    messages = [
+        ("/temps", T0 + k * STEP + j * 3 * 10**9, {field: j + 1, "value": 20.0 + 5 * j + k / 8})
+        for k in range(50)
+        for j in range(2)
+    ]
+    _, _, values, _, losses = read(write(tmp_path / "a.mcap", messages))
+    assert not losses
+    for j in range(2):
+        assert values[f"/temps/{field} {j + 1}.value"] == [20.0 + 5 * j + k / 8 for k in range(50)]
+
+
+def test_a_counter_beside_a_value_is_no_sender(tmp_path: Path, write: Any, read: Any) -> None:
+    messages = [("/temps", T0 + k * STEP, {"seq": k % 2, "value": 20.0 + 5 * (k % 2) + k / 8}) for k in range(100)]
+    _, _, values, _, _ = read(write(tmp_path / "a.mcap", messages))
+    assert set(values) == {"/temps.seq", "/temps.value"}

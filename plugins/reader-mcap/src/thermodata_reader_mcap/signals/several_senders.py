@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block
+from thermodata.reader.signals.header_words import SENSOR_WORDS
+from thermodata.reader.signals.interleaved import bare_header
 from thermodata.reader.signals.series import Called, Declaration, Found, find_series
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
@@ -34,10 +36,10 @@ def senders(
     """How the messages of a topic are taken apart, each sender a stream called as if it had a topic of its own; none
     where all are of one. taken: the names of other topics; times: signals that its times are, besides its fields."""
     leaves = [leaf for leaf in topic.leaves if not _is_time(leaf.path)]
-    words = [leaf for leaf in leaves if leaf.dtype == "str"]
+    words = [leaf for leaf in leaves if _may_name(leaf)]
     if declared.columns is None:
-        if not any(leaf.dtype == "str" for leaf in topic.leaves) or len(topic.leaves) > _MOST_LEAVES:
-            return Found()  # an id that is a number names its topic's fields only beside words: counters look like it
+        if not any(map(_may_name, topic.leaves)) or len(topic.leaves) > _MOST_LEAVES:
+            return Found()
         if all(len(set(column)) < 2 for column in looked_at(words, batches, made, _GLANCE)[2]):
             return Found()
     logs, pieces, cells = looked_at(leaves, batches, made, _LOOKED_AT)
@@ -55,7 +57,7 @@ def senders(
         absolute=True,
         declared=mine,
         pieces=np.array(pieces, np.int64)[order],
-        called=Called(lambda one: f"{topic.name}/{one}", partial(_named, topic.name), taken),
+        called=Called(lambda one: f"{topic.name}/{_bare(topic.name, one)}", partial(_named, topic.name), taken),
         kept={*times, *({leaf.name for leaf in topic.leaves} - set(values))},
     )
 
@@ -85,9 +87,21 @@ def looked_at(
     return logs, pieces, cells
 
 
+def _may_name(leaf: Leaf) -> bool:
+    """Whether a field may say whose its message is: a number beside no words only where it is called so, for counters
+    look like an id."""
+    return leaf.dtype == "str" or bare_header(leaf.name) in SENSOR_WORDS
+
+
 def _named(topic: str, series: str, name: str) -> str:
     """'/temperature.value' of the series 'bed' is '/temperature/bed.value'."""
+    series = _bare(topic, series)
     return f"{topic}/{series}{name[len(topic) :]}" if name.startswith(topic) else f"{series}/{name}"
+
+
+def _bare(topic: str, series: str) -> str:
+    """A series that is called by a number and its field, without the topic: 'ch 1' of '/temps.ch 1'."""
+    return series.removeprefix(f"{topic}.")
 
 
 def _is_time(path: Path) -> bool:
