@@ -105,3 +105,18 @@ def test_a_reader_that_looks_at_all_and_heeds_no_sheet_is_refused(tmp_path: Path
     assert described(reader, tmp_path / "x", Source(table={"series": "none"}))  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="knows no sheets"):
         described(reader, tmp_path / "x", Source(table={"sheet": "S2"}))  # type: ignore[arg-type]
+
+
+def test_columns_of_series_that_no_reader_looks_at_are_refused(tmp_path: Path) -> None:
+    reader = Plain(lambda t: None)
+    with pytest.raises(UsageError, match="parts no rows by what they are of") as refused:
+        described(reader, tmp_path / "x", Source(table={"series": ["sensor"]}))  # type: ignore[arg-type]
+    assert refused.value.got == "series: ['sensor']"
+    assert described(reader, tmp_path / "x", Source(table={"series": "none"})).signals  # type: ignore[arg-type]
+
+
+def test_columns_of_series_are_heeded_by_the_reader_of_tables(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{s:02},{'ab'[s % 2]},{20 + s}" for s in range(30)]
+    (tmp_path / "x.csv").write_text("\n".join(["time,spot,T", *rows, ""]))
+    said = described(readers()["table"], tmp_path / "x.csv", Source(table={"series": ["spot"]}))
+    assert {s.name for s in said.signals} == {"a/T", "b/T"}

@@ -5,13 +5,41 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from thermodata.errors import FAILED, UsageError
 from thermodata.plugin import Reader, Recording, Source
+from thermodata.reader.signals.series import NEVER
 
-_SHEET = "sheet"
-_NO_SHEET = "thermodata: a sheet that no file has"  # longer than a workbook's can be
+_NO_SUCH = "thermodata: a name that no file has"  # longer than a workbook's sheet can be
+
+
+class _Said(NamedTuple):
+    """A key that is refused where it is not looked at. other: what no file answers alike."""
+
+    key: str
+    other: Any
+    what: str
+    expected: str
+    hint: str
+
+
+_WATCHED = (
+    _Said(
+        "sheet",
+        _NO_SUCH,
+        "knows no sheets in such a file",
+        "a source without table: {sheet: ...}, whose files are one test each",
+        "take 'sheet' out of this source's table; a file that holds several tests is cut by 'window' in each",
+    ),
+    _Said(
+        "series",
+        [_NO_SUCH],
+        "parts no rows by what they are of in such a file",
+        "a source without table: {series: [...]}, whose signals are one sensor's each",
+        "take 'series' out of this source's table, or write a row a value with time, name and value in its columns",
+    ),
+)
 
 
 class _Heeded(dict[str, Any]):
@@ -78,33 +106,37 @@ class _Heeded(dict[str, Any]):
 
 class Watched:
     """A source as its reader is given it for a description. `refuse_ignored` says afterwards what the reader did not
-    heed: a sheet of a file that has none, by which each test would get the whole file."""
+    heed: a sheet of a file that has none, by which each test would get the whole file, or columns that name series,
+    whose rows would stay one."""
 
     def __init__(self, source: Source) -> None:
+        said = source.table or {}
         self._said = source
-        self._wanted = (source.table or {}).get(_SHEET)
-        self._table = _Heeded(source.table) if source.table and self._wanted is not None else None
+        # none says what is so where nothing is parted
+        self._wanted = [w for w in _WATCHED if w.key in said and said[w.key] not in (None, NEVER)]
+        self._table = _Heeded(said) if self._wanted else None
         self.source = source if self._table is None else replace(source, table=self._table)
 
     def refuse_ignored(self, reader: Reader, path: Path, said: Recording) -> None:
-        """UsageError where a sheet is declared and the reader asked for none, or copied the whole layout and describes
-        a sheet that no file has as it did this one. said: how it described the file."""
-        if self._table is None or _SHEET in self._table.seen:
-            return
-        if self._table.together and not self._describes_any(reader, path, said):
-            return
-        raise UsageError(
-            f"reader '{reader.name}' knows no sheets in such a file",
-            where=path.name,
-            expected="a source without table: {sheet: ...}, whose files are one test each",
-            got=f"sheet: {self._wanted}",
-            hint="take 'sheet' out of this source's table; a file that holds several tests is cut by 'window' in each",
-        )
+        """UsageError where such a key is declared and the reader did not ask for it, or copied the whole layout and
+        describes one that no file has as it did this one. said: how it described the file."""
+        for wanted in self._wanted:
+            if self._table is None or wanted.key in self._table.seen:
+                continue
+            if self._table.together and not self._describes_any(reader, path, said, wanted):
+                continue
+            raise UsageError(
+                f"reader '{reader.name}' {wanted.what}",
+                where=path.name,
+                expected=wanted.expected,
+                got=f"{wanted.key}: {(self._said.table or {})[wanted.key]}",
+                hint=wanted.hint,
+            )
 
-    def _describes_any(self, reader: Reader, path: Path, said: Recording) -> bool:
-        """Whether a reader describes a file in the same way, whatever sheet is declared."""
-        other = {**(self._said.table or {}), _SHEET: _NO_SHEET}
+    def _describes_any(self, reader: Reader, path: Path, said: Recording, wanted: _Said) -> bool:
+        """Whether a reader describes a file in the same way, whatever is declared."""
+        other = {**(self._said.table or {}), wanted.key: wanted.other}
         try:
             return reader.describe(path, replace(self._said, table=other)) == said
-        except FAILED:  # whatever it is that such a sheet is answered with: it was looked at
+        except FAILED:  # whatever it is that such a name is answered with: it was looked at
             return False

@@ -2,8 +2,9 @@
 "value": ...}`, `{"time": ..., "T1": 20.5, "T2": 20.6}`, Telegraf's `fields` and `tags`, the `vals` and `records` of
 Industrial Edge [IE Common Databus Payload Format]; also those of an array that holds an object a line.
 
-A value holds until the next one of its name, but for objects that all have the same keys: where one lacks a key there
-is no value.
+Messages of several sensors are parted by what they say of these: labels, also of an object beside the values, or a key
+that parts them as a column does the rows of a table. A value holds until the next one of its name, but for objects that
+all have the same keys: where one lacks a key there is no value.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.messages.json_text import loads
 from thermodata_reader_cnc.messages.reports import Report, is_bad, reports
+from thermodata_reader_cnc.messages.senders import Senders, senders
 from thermodata_reader_cnc.messages.shape import shape_of
 from thermodata_reader_cnc.opcua.long_times import Times, time_form
 from thermodata_reader_cnc.opcua.row_units import in_unit_of
@@ -66,11 +68,12 @@ def _read(text: str) -> list[Report] | None:
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """labels: the places of those that tell reports apart; common: place -> the label that all have; keys: of an
-    object, where all have the same; zero_good: whether the quality 0 is."""
+    """senders: whose a message is; labels: the places of those that tell reports apart; common: place -> the label that
+    all have; keys: of an object, where all have the same; zero_good: whether the quality 0 is."""
 
     plan: events.Plan
     encoding: str
+    senders: Senders
     labels: tuple[int, ...]
     common: Mapping[int, str]
     keys: tuple[str, ...]
@@ -109,6 +112,9 @@ def _look(path: Path, source: Source) -> _Look:
             got=lines[0][:80] if lines else "nothing",
             hint="write the time of each message into it, as a date or in s, ms, us or ns since 1970",
         )
+    of = senders(messages, source, form)
+    head, messages = [of.named(found) for found in head], [of.named(found) for found in messages]
+    every = [report for found in messages for report in found if report.time]
     labels = _telling(every)
     units = dict[str, str]()
     for report in every:
@@ -122,13 +128,14 @@ def _look(path: Path, source: Source) -> _Look:
     return _Look(
         plan,
         first.encoding,
+        of,
         labels,
         {k: label for r in every for k, label in enumerate(r.labels) if k not in labels},
         keys,
         units,
         zero,
         _times_of(lines),
-        (first.note,) if first.note else (),
+        (*([first.note] if first.note else []), *of.notes),
     )
 
 
@@ -231,7 +238,7 @@ def _events(text: str, number: int, part: str, look: _Look) -> Iterator[Event | 
         yield Loss(f"{part} {number}", reason=f"expected {wanted}, got '{text[:80]}'")
         return
     seen = set[str]()
-    for report in found:
+    for report in look.senders.named(found):
         key = look.key(report)
         if (other := look.other(report)) is not None:
             yield Loss(f"{part} {number}", reason=f"'{key}' of '{other[:40]}', which the first look did not meet")

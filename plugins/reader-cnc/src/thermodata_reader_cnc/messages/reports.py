@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from thermodata.reader.signals.header_words import LABEL_WORDS, SENSOR_WORDS
 from thermodata.reader.text.cells.status import is_good
 from thermodata_reader_cnc.events import GONE
 from thermodata_reader_cnc.messages.json_text import Number, loads
@@ -16,6 +17,7 @@ MOST = 1000  # values of one message
 _DEEPEST = 8  # objects within objects
 _LONGEST_WORD = 64  # letters of a time, a unit, a quality
 _MOST_ELEMENTS = 16  # numbers of an array that are signals of their own
+_MOST_OF_ORIGIN = 8  # keys of an object that says where others come from
 _TELEGRAF = {"fields", "tags", "name", "timestamp"}
 
 
@@ -78,7 +80,28 @@ def _of_object(message: Mapping[str, Any], at: _Place) -> Iterator[Report]:
     else:
         labels = (*labels, name) if name else labels
         told = shape.told - {shape.value} if shape.value is not None else shape.told
-        yield from _of_values(message, _Place(time, labels, at.name, at.depth), told)
+        origins = {k: own for k, each in message.items() if isinstance(each, dict) and (own := _origin(k, each))}
+        labels = (*labels, *(_text(message[k][j]) for k, own in origins.items() for j in own))
+        rest = {k: v if k not in origins else _without(v, origins[k]) for k, v in message.items()}
+        yield from _of_values(rest, _Place(time, labels, at.name, at.depth), told)
+
+
+def _origin(key: str, value: Mapping[str, Any]) -> tuple[str, ...]:
+    """The keys of labels in an object that says where what stands beside it comes from, and holds no number and no time
+    of its own: {"end_device_ids": {"device_id": "hall-n"}, "uplink_message": {...}}, {"source": {"id": "1001"}}."""
+    shape = shape_of(tuple(value))
+    if len(value) > _MOST_OF_ORIGIN or shape.time is not None or shape.value is not None:
+        return ()
+    own = [*shape.labels, *(k for k in value if bare(k) in SENSOR_WORDS and k not in shape.labels)]
+    if bare(key) in LABEL_WORDS or bare(key) in SENSOR_WORDS:
+        own += [k for k in value if bare(k) in ("id", "name")]
+    if any(isinstance(v, Number | list | bool) for k, v in value.items() if k not in own):
+        return ()
+    return tuple(k for k in own if _is_scalar(value[k]))
+
+
+def _without(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    return {k: v for k, v in value.items() if k not in keys}
 
 
 def _of_value(message: Mapping[str, Any], shape: Shape, at: _Place) -> Iterator[Report]:
