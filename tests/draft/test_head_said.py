@@ -131,7 +131,7 @@ def test_a_text_beside_the_signals_that_says_a_unit_is_asked(text: str, asked: s
 @pytest.mark.parametrize(
     ("head", "quantity", "unit"),
     [
-        ("Units: microinch", "displacement", "uin"),
+        ("Units: microinch", "displacement", "microinch"),
         ("Units: um", "displacement", "um"),
         ("Units: see manual", None, None),
         ("Operator: Miller", None, None),
