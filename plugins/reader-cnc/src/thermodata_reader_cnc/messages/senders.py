@@ -54,8 +54,9 @@ def senders(messages: Sequence[Sequence[Report]], source: Source, form: TimeForm
 
 def _columns(alike: Sequence[Sequence[Report]]) -> dict[str, Array]:
     """The values of the names that all messages have, shape (n,) each."""
-    names = [r.name for r in alike[0] if all(any(o.name == r.name for o in found) for found in alike)]
     held = [{r.name: r.value for r in found} for found in alike]
+    shared = set(held[0]).intersection(*held)
+    names = [name for name in held[0] if name in shared]
     columns = dict[str, Array]()
     for name in names:
         texts = [one[name] for one in held]
