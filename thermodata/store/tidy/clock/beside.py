@@ -80,9 +80,8 @@ def _durations(plan: TestPlan, here: _Log, there: _Log) -> str:
 
 
 def _log(source: SourcePlan, base_ns: int, zone: str | None) -> _Log | None:
-    of_day_ns = first_of(
-        [r.of_day_ns for r in source.raws]
-    )  # of the row at 0, which in a file newest first is the last
+    # of the row at 0, which in a file newest first is the last
+    of_day_ns = first_of([r.of_day_ns for r in source.raws])
     if of_day_ns is None:
         return None
     first = first_ns(source)
@@ -110,16 +109,14 @@ def _apart(here: _Log, there: _Log) -> tuple[int, str | None]:
     longest = max(_together_ns(here, there, by) for by in days)
     fits = [by for by in days if _together_ns(here, there, by) >= longest - NEAR_NS]
     if len(zones) > 1:
-        return fits[
-            0
-        ], f"and its zone, {here.zone}, is not always as far from {there.zone}; try: give the test its start"
-    if longest > 0 and len(fits) > 1:
-        return fits[0], "and runs with it on another day as well; try: clock: {offset: ...} of it"
-    if here.zone is None and hours_apart(fits[0]):
-        return fits[0], (
-            "which may be the zones of two clocks; try: timezone: Europe/Prague at both where they show one time"
-        )
-    return fits[0], None
+        doubt = f"and its zone, {here.zone}, is not always as far from {there.zone}; try: give the test its start"
+    elif longest > 0 and len(fits) > 1:
+        doubt = "and runs with it on another day as well; try: clock: {offset: ...} of it"
+    elif here.zone is None and hours_apart(fits[0]):
+        doubt = "which may be the zones of two clocks; try: timezone: Europe/Prague at both where they show one time"
+    else:
+        doubt = None
+    return fits[0], doubt
 
 
 def _together_ns(here: _Log, there: _Log, by_ns: int) -> int:
