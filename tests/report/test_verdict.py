@@ -911,7 +911,7 @@ def test_none_above_a_candidate_that_is_seen_says_that_none_may_be_named(p: floa
 @pytest.mark.parametrize(
     ("either", "twins", "expected"),
     [
-        (0.78, [], ", probability 18 %, and 78 % that it is it or heat at axis.x.nut"),
+        (0.78, [], ", probability 18 % (78 % that it is one of these)"),
         (0.49, [], ", probability 18 %"),
         (None, [], ", probability 18 %"),
     ],
@@ -922,4 +922,4 @@ def test_of_what_may_be_another_part_too_the_head_says_how_sure_the_heat_of_both
     first = one("guideway", probability=0.18, unread=["axis.x.nut"], probability_with_unread=either, equivalent=twins)
     told = verdict_sentence(found("unknown", [first]))
     assert f"guideway (T) or heat at axis.x.nut, which T can't tell from it{expected}" in told
-    assert ("that it is it or" in told) is (either == 0.78)
+    assert ("one of these" in told) is (either == 0.78)

@@ -193,7 +193,7 @@ def _tell_missing(step: Step, found: Diagnosis) -> None:
     claims = claims_of(found)
     for claim in claims:
         of = f"{claim.id}: " if len(claims) > 1 else ""
-        step.line(in_lines(f"{of}{claim.why}"))
+        step.line(in_lines(f"why {of}{claim.why}"))
         if claim.equivalent:
             step.line(f"{of}these tests can't tell it from {listed(claim.equivalent)}")
     if found.next_test:

@@ -266,13 +266,13 @@ def _unclaimed(found: Diagnosis) -> str:
 
 
 def _how_likely(one: Candidate) -> str:
-    """'probability 18 %', or where another part may be it 'probability 18 %, and 78 % that it is it or heat at
-    axis.z.nut': to be unsure of the part is not to be unsure of the heat that both share."""
+    """'probability 18 %', or where another part may be it 'probability 18 % (84 % that it is one of these)': to be
+    unsure of the part is not to be unsure of the heat that both share."""
     own, either = one.probability or 0.0, one.probability_with_unread
     sure = f"probability {probability(own)}"
     if not one.unread or either is None or either < _LIKELY or either - own < _MORE:
         return sure
-    return f"{sure}, and {probability(either)} that it is it or {other_heat(one)}"
+    return f"{sure} ({probability(either)} that it is one of these)"
 
 
 def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
