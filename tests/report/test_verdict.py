@@ -113,12 +113,12 @@ def test_all_claims_of_one_answer_are_told() -> None:
 
     assert verdict_sentence(found("effect", all_of("screw", "sun"))) == (
         "missing: screw (T), probability 94 %, and sun (T), probability 70 %; error on left-out tests, each beside the "
-        "other: screw 4.00 -> 1.00 um, sun 2.00 -> 1.00 um; locked tests with both 5.00 -> 2.00 um"
+        "other: screw 4.00 -> 1.00 um, sun 2.00 -> 1.00 um; locked tests with both: 5.00 -> 2.00 um"
     )
     text = verdict_sentence(found("effect", all_of("screw", "sun", "oil")))
     assert text.startswith("missing: screw (T), probability 94 %, sun (T), probability 70 %, and oil (T); ")
     assert "each beside the others: " in text
-    assert "locked tests with all 3 " in text
+    assert "locked tests with all 3: " in text
 
 
 @pytest.mark.parametrize("verdict", ["none", "refine"])
@@ -369,7 +369,7 @@ def test_the_errors_of_a_headline_are_of_the_users_model_and_of_all_that_it_name
     text = verdict_sentence(found("effect", [hidden], rmse_um=1.46, named_rmse_um=1.16))
     assert "; error on left-out tests 1.46 -> 1.16 um; " in text
     both = verdict_sentence(found("effect", [hidden, claim("sun")], rmse_um=1.46, named_rmse_um=1.16))
-    assert "; error on left-out tests with both 1.46 -> 1.16 um; locked tests with both " in both
+    assert "; error on left-out tests with both: 1.46 -> 1.16 um; locked tests with both: " in both
     worse = verdict_sentence(found("effect", [hidden], rmse_um=1.46, named_rmse_um=1.5))
     assert "error on left-out tests (falls where it acts only; over all: 1.46 -> 1.50 um)" in worse
     mode = one("mode", refinement=True, beside=["oil:T"])
@@ -668,6 +668,20 @@ def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> 
     for effect in ("screw", "sun", "mode"):
         assert f"because of {effect}" in html
     assert "because of rest" not in html
+
+
+def test_three_claims_have_a_line_each_below_the_headline(blind: ReportData, data: ReportData) -> None:
+    asked = found("effect", [claim("screw"), claim("sun", 0.7), claim("oil", 0.8)])
+    page = dataclasses.replace(blind, diagnosis=asked)
+    assert headline(page) == "dZ misses 3 effects"
+    assert sentences(page)[:3] == [
+        "screw (T), probability 94 %.",
+        "sun (T), probability 70 %.",
+        "oil (T), probability 80 %.",
+    ]
+    added = dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun", "oil"))
+    assert headline(added) == "Missing in dZ were 3 effects"
+    assert sentences(added)[:3] == sentences(page)[:3]
 
 
 def test_a_page_tells_why_of_each_claim_that_was_added(data: ReportData) -> None:

@@ -13,13 +13,18 @@ from thermodata.schema.agreed.begins_on import IF_SO
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.sentences import listed
 
+_MOST_NAMED = 2  # claims: of three the names, twins and probabilities fill five lines, and stand below one by one
+
 
 def headline(data: ReportData) -> str:
     """The page's first sentence: the cause with what it can't be told from, and how sure; or the verdict."""
     claims, responses = added_claims(data), ", ".join(data.responses)
     if data.added:
         if claims:
-            return f"Missing in {data.reason.response if data.reason else responses} was {causes(claims)}"
+            response = data.reason.response if data.reason else responses
+            if len(claims) > _MOST_NAMED:
+                return f"Missing in {response} were {len(claims)} effects"
+            return f"Missing in {response} was {causes(claims)}"
         if data.offered:
             return (
                 f"{data.added} was added to {data.name}: a refinement that its diagnosis offered, claimed as no cause"
@@ -28,7 +33,8 @@ def headline(data: ReportData) -> str:
     if data.diagnosis:
         claims = claims_of(data.diagnosis)
         if claims:
-            return f"{data.diagnosis.response} misses {causes(claims)}"
+            what = causes(claims) if len(claims) <= _MOST_NAMED else f"{len(claims)} effects"
+            return f"{data.diagnosis.response} misses {what}"
         return capital(clauses(_verdict(data, data.diagnosis))[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
 
@@ -60,6 +66,9 @@ def sentences(data: ReportData) -> list[str]:
     lines += _levels(data)
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
+    told = claims if data.added else claims_of(data.diagnosis) if data.diagnosis else []
+    if len(told) > _MOST_NAMED:
+        lines[:0] = [causes([claim]) for claim in told]
     if claims and data.reason and not data.diagnosis:
         lines.append(capital(of_response(data.reason)))
     for claim in claims:

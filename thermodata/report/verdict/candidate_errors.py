@@ -39,7 +39,7 @@ def left_out_errors(some: Sequence[Candidate], left: float | None, together: flo
 
 
 def _all_of(some: Sequence[Candidate]) -> str:
-    return "" if len(some) == 1 else " with both" if len(some) == 2 else f" with all {len(some)}"
+    return "" if len(some) == 1 else " with both:" if len(some) == 2 else f" with all {len(some)}:"
 
 
 def _each_beside(some: Sequence[Candidate], left: float | None) -> str:
