@@ -14,6 +14,7 @@ import pytest
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import keep_answer
+from thermodata.store.catalogue.models.looks import count_locked_look
 
 from ..commands import Say
 from .conftest import write_campaign
@@ -190,3 +191,33 @@ def test_what_is_forgotten_stays_on_the_disk_until_gc_which_says_what_it_leaves(
     assert "younger than 1 h and left alone, for an ingest may be writing" in said.err
     said = say("--store", store, "gc", "--grace", "0 s")
     assert "left alone" not in said.err
+
+
+def test_versions_of_models_are_forgotten_from_the_newest_on_and_their_looks_count_on(
+    say: Say, made_campaign: Path, tmp_path: Path
+) -> None:
+    store = shutil.copytree(made_campaign / "thermodata.store", tmp_path / "own.store")
+
+    def models() -> list[str]:
+        return [m["model"] for m in json.loads(say("--store", store, "models", "--json").out)]
+
+    (first,) = models()
+    newer = json.loads(say("--store", store, "add", first, "lag:T_nut_Z", "--json").out)["model"]
+    count_locked_look(Store(store), newer, [("small", "day2")], "to see")
+    said = say("--store", store, "forget", "--model", first)
+    assert said.code == 2
+    assert f"forget these too: {newer}" in said.err
+    assert set(models()) == {first, newer}
+    said = say("--store", store, "forget", "--model", newer)
+    assert (said.code, "looks at locked tests that were opened for them stay counted: 1" in said.err) == (0, True)
+    assert models() == [first]
+    for table in ("fit", "score", "prediction", "finding", "model"):
+        assert newer not in say("--store", store, "sql", f"select * from {table}", "--json").out
+    assert newer in say("--store", store, "sql", "select * from locked_look", "--json").out
+
+
+@pytest.mark.parametrize("asked", [(), ("small", "--model", "baseline"), ("--model", "baseline", "--earlier")])
+def test_forget_asks_for_a_campaign_or_models(say: Say, made_campaign: Path, asked: tuple[str, ...]) -> None:
+    said = say("--store", made_campaign / "thermodata.store", "forget", *asked)
+    assert said.code == 2
+    assert "a CAMPAIGN, or --model MODEL" in said.err

@@ -1,8 +1,9 @@
-"""`forget`: a campaign, or one test of it, out of the catalogue, with all that derives from it."""
+"""`forget`: a campaign, one test of it, or versions of models, out of the catalogue, with all that derives from it."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError, unknown_name
@@ -49,6 +50,34 @@ def forget(
         if test is None:
             return _answer(campaign, test, tests=gone, models=_forget_campaign(con, campaign), looks=looks)
         return _answer(campaign, test, tests=gone, stale=_forget_test(con, campaign, test), looks=looks)
+
+
+def forget_models(store: Store, models: Sequence[str]) -> dict[str, Any]:
+    """Removes versions of models with their parameters, scores, predictions and diagnoses. How often locks were opened
+    for them stays counted: what was seen is not unseen.
+
+    models: ids. UsageError, and nothing is removed, where another version was made from one of them: without it, nobody
+    could tell what that one has learnt.
+    """
+    with store.write() as con:
+        rows = fetch(
+            con,
+            "select model, name, parent from model where list_contains($1, parent) and not list_contains($1, model) "
+            "order by created_at",
+            [list(models)],
+        )
+        if rows:
+            raise UsageError(
+                f"{rows[0]['name']} {rows[0]['model']} was made from {rows[0]['parent']}",
+                expected="versions that no other one was made from",
+                got=", ".join(models),
+                hint=f"forget these too: {', '.join(r['model'] for r in rows)}",
+            )
+        held = "list_contains(?, model)"
+        looks = fetch(con, f"select count(*) as n from locked_look where {held}", [list(models)])[0]["n"]
+        for table in _OF_MODEL:
+            con.execute(f"delete from {table} where {held}", [list(models)])
+        return {"models": list(models), "looks": looks}
 
 
 def _forget_campaign(con: duckdb.DuckDBPyConnection, campaign: str) -> list[str]:
