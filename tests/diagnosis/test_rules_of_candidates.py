@@ -539,3 +539,27 @@ def test_the_mask_of_the_measurement_is_no_candidate() -> None:
 
 def _two(one: str, other: str) -> tuple[Need, ...]:
     return (Need("a", "temperature", (one,)), Need("b", "temperature", (other,)))
+
+
+@pytest.mark.parametrize(
+    ("effect", "drivers", "present", "expected"),
+    [
+        ("cutting_load", "load_2", Present("cutting_load", frozenset({"load"}), "cutting"), None),
+        ("spindle_bearing", "T_front", Present("spindle_friction", frozenset({"n_2"}), "counter_spindle"), "related"),
+        ("spindle_bearing", "T_front", Present("spindle_friction", frozenset({"n"}), "spindle"), "heat"),
+    ],
+)
+def test_the_heat_of_each_spindle_is_its_own(effect: str, drivers: str, present: Present, expected: str | None) -> None:
+    """The load of a counter spindle was another mode of that of the main one; the bearing of a grinding spindle one of
+    the dresser's friction, where the motor beside it was known."""
+    channels = {
+        "load": ChannelInfo("load", "load", "%", at="spindle"),
+        "load_2": ChannelInfo("load_2", "load", "%", at="counter_spindle"),
+        "T_front": ChannelInfo("T_front", "temperature", "degC", at="spindle.bearing.front"),
+        "T_motor": ChannelInfo("T_motor", "temperature", "degC", at="spindle.motor"),
+        "n": ChannelInfo("n", "rotational_speed", "rpm", at="spindle"),
+        "n_2": ChannelInfo("n_2", "rotational_speed", "rpm", at="counter_spindle"),
+    }
+    motor = Present("spindle_motor", frozenset({"T_motor"}), "spindle")
+    found = candidates(effects(), channels, (present, motor), "dZ")
+    assert next(c.kin for c in found if c.id == f"{effect}:{drivers}") == expected

@@ -69,7 +69,7 @@ def kin_of(
         return "heat" if other else "same"
     if family not in model.families:
         return None
-    if any(cause(own) == cause(effect) for own, _ in acting):
+    if any(heat_of(own, p.family) == heat_of(effect, family) for own, p in acting):
         return "same"
     if names <= model.read and warm:
         return "part" if _one_of_several(names, [p.channels for p in model.own if p.family == family]) else "same"

@@ -27,7 +27,7 @@ class CuttingTorque(Lagged):
 
     name = "cutting_torque"
     cause = CUTTING_HEAT
-    family = "cutting"
+    family = "{s}cutting"
     meaning = "heat of cutting from the spindle's torque and speed: k F{|M n|}, where no power is logged"
     equation = "d = k F_tau{|M n| 2 pi / 60000}"
     telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"

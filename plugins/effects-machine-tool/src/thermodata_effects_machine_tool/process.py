@@ -43,7 +43,7 @@ class CuttingPower(Lagged):
 
     name = "cutting_power"
     cause = CUTTING_HEAT
-    family = "cutting"
+    family = "{s}cutting"
     meaning = "heat of cutting from the spindle's power: k F{P}"
     equation = "d = k F_tau{P}"
     telltale = "follows the load; told apart by the same path as an air cut"
@@ -64,7 +64,7 @@ class CuttingLoad(Lagged):
 
     name = "cutting_load"
     cause = CUTTING_HEAT
-    family = "cutting"
+    family = "{s}cutting"
     meaning = "heat of cutting from the spindle's load: k F{load/100 %}"
     equation = "d = k F_tau{load / 100 %}"
     telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"
