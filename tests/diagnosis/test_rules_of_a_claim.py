@@ -270,6 +270,18 @@ def test_the_floor_is_a_tenth_of_the_response_or_twice_the_noise(noise: float, s
 
 
 @pytest.mark.parametrize(
+    ("noise", "spread", "said"), [(0.1, 5.1, 0.51), (0.3, 4.0, 0.5), (1.5, 6.3, 1.63), (float("nan"), 3.0, 0.3)]
+)
+def test_locked_tests_say_something_of_what_is_more_than_the_noise_itself(
+    noise: float, spread: float, said: float
+) -> None:
+    """A probe with a noise of 1.5 um: 1.9 um are left of 6.3, and 1.1 of these are no noise."""
+    found = Measure(spread, noise, np.zeros(0))
+    assert found.said == pytest.approx(said, rel=0.01)
+    assert found.said <= found.floor
+
+
+@pytest.mark.parametrize(
     ("noise", "spread", "noises"), [(0.1, 5.1, 0.5), (0.1, 4.0, 0.4), (0.1, 1.9, 0.2), (float("nan"), 3.0, 0.0)]
 )
 def test_noise_is_five_times_the_short_one_and_less_where_that_is_large(

@@ -38,6 +38,7 @@ BESIDE = {
     "investigate.py": ("investigation",),
     "faults.py": ("logging_faults",),
     "judge.py": ("the_verdict", "a_claim"),
+    "beyond_noise.py": ("what_is_noise",),
     "kin.py": ("candidates",),
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
@@ -325,6 +326,21 @@ MUTANTS = [
     ),
     diagnosis("selection.py", "(_only(first, some), beside_all))", "(_only(first, some),))", "nor beside the members"),
     diagnosis("investigate.py", " and any_stands_out(", " and not any_stands_out(", "it is looked for in vain"),
+    # ---- what is more than noise
+    diagnosis("beyond_noise.py", "error**2 - white**2", "error**2", "a loud probe hides a fall"),
+    diagnosis("beyond_noise.py", "if after >= before:", "if False:", "a rise beside the noise is a multiple"),
+    diagnosis(
+        "beyond_noise.py", "least = white * (2.0 / max(rows, 2.0)) ** 0.25", "least = 1e-9", "noise falls by most"
+    ),
+    diagnosis(
+        "measure.py", "np.hypot(noise, FLOOR_SHARE * self.spread)", "1e9", "locked tests of a loud probe are silent"
+    ),
+    diagnosis(
+        "kin.py",
+        "heat_of(own, p.family) == heat_of(effect, family) for own, p in acting)",
+        "cause(own) == cause(effect) for own, _ in acting)",
+        "another spindle's bearing is a mode",
+    ),
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
     diagnosis(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.diagnosis.weigh.figures import HARDLY, from_to
+from thermodata.diagnosis.weigh.figures import HARDLY, from_to, of_more_than_noise
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import apart, beside, in_percent
 
@@ -22,7 +22,8 @@ def too_little(scored: Scored, fall: float, unit: str, tests: str, doubles: floa
         return f"{where} does not fall (limit: a fall of {in_percent(fall)})"
     if scored.drop < HARDLY:
         return f"{where} hardly falls (limit: a fall of {in_percent(fall)})"
-    return f"{where} falls by {apart(scored.drop, fall)} only ({beside(scored.drop, fall)})"
+    of = of_more_than_noise(scored.drop, scored.error_before, scored.error_after)
+    return f"{where} falls by {apart(scored.drop, fall)}{of} only ({beside(scored.drop, fall)})"
 
 
 def too_few(better: int, count: int, limit: float, tests: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from thermodata.diagnosis.claims.probability import may_be_another_cause, sharpness
-from thermodata.diagnosis.weigh.figures import HARDLY, from_to, way
+from thermodata.diagnosis.weigh.figures import HARDLY, from_to, of_more_than_noise, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.places import heat_at
@@ -12,7 +12,8 @@ from thermodata.schema.words.sentences import in_percent
 
 def in_short(scored: Scored) -> str:
     """What its probability hangs on."""
-    by = f" by {in_percent(scored.drop)}" if scored.drop >= HARDLY else ""
+    of = of_more_than_noise(scored.drop, scored.error_before, scored.error_after)
+    by = f" by {in_percent(scored.drop)}{of}" if scored.drop >= HARDLY else ""
     falls = f"where it acts the error {way(scored.error_before, scored.error_after)}{by}"
     beaten = scored.beaten and scored.candidate.around
     more = ["a sharper effect stands beside it, and leaves what is slow, as the air is"] if beaten else []
@@ -47,7 +48,7 @@ def on_locked(looked: Looked) -> str:
 def in_words(of: Foretold, unit: str) -> str:
     """'falls by 60 % (1.00 -> 0.40 um)', 'hardly changes (...)', 'rises by 20 % (...)'."""
     if of.falls:
-        said = f"falls by {in_percent(of.fall)}"
+        said = f"falls by {in_percent(of.fall)}{of_more_than_noise(of.fall, of.before, of.after)}"
     else:
         rises = of.after > 1.005 * of.before > 0
         said = f"rises by {in_percent(of.after / of.before - 1)}" if rises else "hardly changes"

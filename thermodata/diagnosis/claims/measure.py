@@ -46,6 +46,13 @@ class Measure:
         """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
         return max(self.noises, FLOOR_SHARE * self.spread)
 
+    @property
+    def said(self) -> float:
+        """An error on locked tests that says nothing: no more than noise and what is left alone of a response. Noise
+        that is large by itself hides no fall of what is more than it."""
+        noise = self.noise if np.isfinite(self.noise) else 0.0
+        return min(self.floor, float(np.hypot(noise, FLOOR_SHARE * self.spread)))
+
     def good(self, *, refined: bool) -> float:
         """An error that a good model has. refined: that it has once its effects are refined."""
         return max(self.floor, (REFINED_SHARE if refined else GOOD_SHARE) * self.spread)

@@ -216,7 +216,7 @@ def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None)
     before, after, changed = (
         float(np.sqrt(sum(getattr(s, name) for s in shapes) / rows)) for name in ("before", "after", "changed")
     )
-    return Foretold(before, after, changed, tests=tests)
+    return Foretold(before, after, changed, tests=tests, rows=rows)
 
 
 def _sizes(

@@ -94,7 +94,9 @@ def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked
             return None
         looked_for.setdefault(one.scored.candidate.id)
         added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
-        return Looked(foretold, added, found.measure.floor, unit, spoilt(fits, some, place, found.measure.floor))
+        if added is not None:
+            added = replace(added, white=foretold.white)
+        return Looked(foretold, added, found.measure.said, unit, spoilt(fits, some, place, found.measure.floor))
 
     return kept_where_they_hold(
         judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit

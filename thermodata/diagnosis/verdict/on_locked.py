@@ -57,7 +57,7 @@ class Lock:
     def confirms(self, found: Selection, told: Judgement, one: Judged, measure: Measure) -> bool:
         """Whether they would make a claim of a member by themselves."""
         said = self.foretold(found, told, one, ()) if may_be_confirmed(one.scored) else None
-        return said is not None and is_made_a_claim(one.scored, Looked(said, None, measure.floor))
+        return said is not None and is_made_a_claim(one.scored, Looked(said, None, measure.said))
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:
@@ -82,6 +82,8 @@ def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored]
         rms_about_means([a - b for a, b in zip(before, after, strict=True)]),
         gained / sum(len(r) for r in before),
         keys,
+        noise.white,
+        sum(len(r) for r in before),
     )
 
 

@@ -22,3 +22,9 @@ def way(before: float, after: float) -> str:
     if after >= before:
         return "does not fall"
     return "falls" if before - after >= HARDLY * before else "hardly falls"
+
+
+def of_more_than_noise(fall: float, before: float, after: float) -> str:
+    """What a fall is a share of where that is not the error beside it: ' of what is more than noise'; else ''."""
+    seen = 1.0 - after / before if before > 0 else 0.0
+    return " of what is more than noise" if round(100 * fall) != round(100 * seen) else ""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from thermodata.diagnosis.weigh.beyond_noise import fall_beyond
+
 KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
 LEAST = 0.02  # and the least fall of the error;
 MUCH = 0.25  # a fall of the error that is enough by itself,
@@ -32,6 +34,8 @@ class Foretold:
     changed: float
     gained: float = 0.0
     tests: frozenset[tuple[str, str]] | None = None
+    white: float = 0.0
+    rows: int = 0
 
     @property
     def falls(self) -> bool:
@@ -40,7 +44,7 @@ class Foretold:
     @property
     def fall(self) -> float:
         """Of the error, as a share; a rise to more than twice says no more than one to twice."""
-        return max(1.0 - self.after / self.before, -1.0) if self.before > 0 else 0.0
+        return max(fall_beyond(self.before, self.after, self.white, self.rows), -1.0)
 
     @property
     def holds(self) -> bool:

@@ -76,6 +76,7 @@ def _with_left_out(base: Known, seen: Scored, does: Float1D, white: Float1D) -> 
         seen,
         gained=seen.weighed.total - others.total,
         rows=space.sizes,
+        white=space.noise.white,
         sse_before=before,
         sse_after=after,
         own_before=own_before,

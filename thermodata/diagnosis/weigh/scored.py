@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.weigh.beyond_noise import fall_beyond
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.plugin import Bool1D, Float1D
 
@@ -29,7 +30,8 @@ class Scored:
     say; None where they were not opened for it. also_on: (channel, probability there) of each other axis on which it is
     missing too, where that was asked. others: ids of the candidates that it was weighed beside. sides: of a difference,
     the log evidence of each of its two temperatures by itself, in its place; empty for all else. as_modelled: whether
-    the known effects acted as the model has them, and were not free to act otherwise."""
+    the known effects acted as the model has them, and were not free to act otherwise. white: RMS of the white noise in
+    which it was weighed."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -51,6 +53,7 @@ class Scored:
     others: tuple[str, ...] = ()
     sides: tuple[float, ...] = ()
     as_modelled: bool = False
+    white: float = 0.0
 
     @property
     def acts(self) -> Bool1D:
@@ -74,8 +77,9 @@ class Scored:
 
     @property
     def drop(self) -> float:
-        """Fall of that error, as a share."""
-        return 1.0 - self.error_after / self.error_before if self.error_before > 0 else 0.0
+        """Fall of that error, as a share of what is more than noise."""
+        rows = float(self.rows[self.acts].sum()) if len(self.rows) else 0.0
+        return fall_beyond(self.error_before, self.error_after, self.white, rows)
 
     @property
     def better(self) -> float:

@@ -8,7 +8,7 @@ from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import rules
-from thermodata.diagnosis.weigh.figures import way
+from thermodata.diagnosis.weigh.figures import of_more_than_noise, way
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent, listed
 from thermodata.view.grid.dataset import TestData
@@ -37,7 +37,8 @@ def in_spite_of(scored: Scored, measure: Measure, unit: str) -> str:
 def _falls(scored: Scored) -> str:
     """As its figures say: 'does not fall', 'hardly falls', 'falls by 10 % only'."""
     said = way(scored.error_before, scored.error_after)
-    return f"{said} by {in_percent(scored.drop)} only" if said == "falls" else said
+    of = of_more_than_noise(scored.drop, scored.error_before, scored.error_after)
+    return f"{said} by {in_percent(scored.drop)}{of} only" if said == "falls" else said
 
 
 def placeless_limit(scored: Scored) -> str:

@@ -8,7 +8,7 @@ from thermodata.diagnosis.claims.in_words import in_words, on_locked
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import LEAST_TESTS
 from thermodata.diagnosis.locked.confirm import Confirmation
-from thermodata.diagnosis.weigh.figures import from_to, short, way
+from thermodata.diagnosis.weigh.figures import from_to, of_more_than_noise, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent
@@ -87,7 +87,8 @@ def _outweighs(scored: Scored, tests: str) -> str:
     """What of the open tests outweighs locked ones that speak against a claim."""
     count = int(scored.acts.sum())
     gain = f", with a gain that differs by {in_percent(scored.spread)}" if count >= LEAST_TESTS else ""
-    falls = f"{way(scored.error_before, scored.error_after)} by {in_percent(scored.drop)}"
+    of = of_more_than_noise(scored.drop, scored.error_before, scored.error_after)
+    falls = f"{way(scored.error_before, scored.error_after)} by {in_percent(scored.drop)}{of}"
     return (
         f"the open ones outweigh that: there the error {falls} in the {count} {tests if count > 1 else tests[:-1]} "
         f"in which it acts{gain}, so that, all weighed, its probability is {in_percent(probability(scored))}"
