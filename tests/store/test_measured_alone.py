@@ -138,3 +138,21 @@ def test_what_stands_at_one_value_is_none_whether_the_measured_samples_tell_it_a
     flags, valid = np.array(rows_of).T
     assert ((flags[away & passes] & int(Flag.STUCK | Flag.SATURATED)) != 0).all()
     assert (valid.astype(bool) == ~away).all()
+
+
+def test_a_probe_that_is_not_in_reach_yet_when_measuring_begins_stays_saturated(store: Store, tmp_path: Path) -> None:
+    """Five of a day's readings of 520 um counted, each the first of a measurement that the position had begun."""
+    rows = np.arange(N)
+    rng = np.random.default_rng(1)
+    x = 40 * (1 - np.exp(-rows / 900)) + rng.normal(0, 0.3, N)
+    phase = rows % EVERY
+    x[(phase > 17) | ((phase == 0) & (rows // EVERY % 30 == 0))] = 520.0
+    path = write_campaign(tmp_path / "lab", CAMPAIGN.replace("MEASURING", MASKED), logs=False)
+    t = START_NS + rows.astype(np.int64) * 10 * 10**9
+    meas = (phase <= 17).astype(np.float64)
+    write_log(path.parent / "raw/a.npz", {"main": {"t_ns": t, "dZ": np.round(x, 3), "meas": meas}})
+    ingest(store, path)
+    with store.reader() as con:
+        (most, count) = con.execute("select max(value), count(*) from displacement where valid(flag)").fetchone()
+    assert most < 50
+    assert count == int(((phase <= 17) & (x < 500)).sum())

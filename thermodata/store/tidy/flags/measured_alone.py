@@ -13,6 +13,9 @@ from thermodata.calibration.quality.flags import flag_stream
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 
+# of the span of what is measured: so far off all other readings, an end of the range is none, as where stays at an end
+# are told (quality/ends/stays.py)
+APART = 0.1
 STANDS = 4  # stretches that are measured, and the same value in all of them and between: it stands still indeed
 # what a value is accused of for coming again, and for standing out from what is no measurement beside it
 DOUBTED = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.SPIKE)
@@ -38,6 +41,7 @@ def cleared(
         for name in names:
             doubted = _accused(columns[name], flags[name])[mask] & DOUBTED & ~_borne_out(alone[name])
             doubted[_stands(columns[name].values, mask)[mask]] = 0
+            doubted[_far_off(columns[name].values[mask], (flags[name][mask] & Flag.SATURATED) != 0)] = 0
             found[name] = flags[name].copy()
             found[name][mask] &= ~doubted
     return found
@@ -55,6 +59,18 @@ def _stands(values: Array, mask: Bool1D) -> Bool1D:
     pairs = np.unique(np.stack([run[mask], stretch[mask]]), axis=1)
     counted = np.bincount(pairs[0], minlength=int(run[-1]) + 1)
     return np.asarray(counted[run] >= STANDS)
+
+
+def _far_off(values: Array, at_end: Bool1D) -> Bool1D:
+    """Where a value at the end of a range is far from all else that is measured, shape (n,): a probe that is not in
+    reach yet, and no reading that the logger repeated. values: of the measured samples."""
+    found, rest = at_end.copy(), values[~at_end & np.isfinite(values)]
+    if not at_end.any() or not len(rest):
+        return np.zeros_like(at_end)
+    within = np.concatenate([rest, values[at_end]])
+    nearest = np.clip(values[at_end], rest.min(), rest.max())
+    found[at_end] = np.abs(values[at_end] - nearest) > APART * np.ptp(within)
+    return found
 
 
 def _accused(column: ColumnInput, flags: Array) -> Array:
