@@ -95,6 +95,8 @@ PLACES: dict[str, str] = {
     "hall": "the air around the machine",
     "hall.top": "that air above, at the height of the machine's top",
     "hall.bottom": "that air below, near the floor",
+    "hall.near": "that air beside the machine",
+    "hall.far": "that air away from it",
     "hall.door": "at the hall's door; also the door's state",
     "hall.window": "at a window of the hall",
     "hall.sun": "where the sun reaches the machine",
