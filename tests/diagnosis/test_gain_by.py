@@ -166,6 +166,10 @@ def test_a_value_of_one_test_is_said_to_be_foretold_by_none(spec: Model) -> None
     assert not offered.refinement
     assert "values that stand in one test only: T3 (t5); no other test foretells their gain" in offered.why
     assert "ask the locked t6" in offered.why
+    assert found.verdict == "unknown"
+    said = str(found.next_test)
+    assert said.startswith(f"{ID} could not be asked: conditions.tool has values that stand in one test only: T3 (t5)")
+    assert "ask the locked t6 (thermodata confirm); if it is not that, " in said
 
 
 @pytest.mark.parametrize(

@@ -6,14 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
-from thermodata.diagnosis.claims.rules import rules
+from thermodata.diagnosis.claims.rules import P_LIMIT, rules
 from thermodata.diagnosis.tell.advising import next_test
 from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
 from thermodata.diagnosis.tell.advising.worked import worked
 from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, equivalents
+from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.view.grid.dataset import Dataset
 
@@ -23,7 +25,11 @@ def advice(
 ) -> str | None:
     """first: of the list. head: the first that refines nothing. terms: ids of the model's effects."""
     said = _advice(outcome, first, data, terms)
-    return with_fixture(said, head, data.channels) if outcome.judgement.verdict == "unknown" else said
+    if outcome.judgement.verdict != "unknown":
+        return said
+    said = with_fixture(said, head, data.channels)
+    unasked = _of_one_test_each(outcome.investigation)
+    return said if unasked is None else next_test.to_ask_of_locked(unasked, said)
 
 
 def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequence[str]) -> str | None:
@@ -60,6 +66,15 @@ def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequen
     took_part = {b.test.key: b.test for b in investigation.problem.blocks}
     sources = worked(list(took_part.values()), data.channels)
     return next_test.to_find(len(took_part), investigation.spots, data.channels, first, sources)
+
+
+def _of_one_test_each(investigation: Investigation) -> CandidateEffect | None:
+    """What left-out tests can't be asked of, for one of its conditions stands in one test only: the likeliest one that
+    chance does not do as well."""
+    ranked = () if investigation.selection is None else investigation.selection.first.ranked
+    chance = investigation.measure.chance
+    some = [s for s in ranked if s.candidate.unforetold and p_value(s.evidence, chance) <= P_LIMIT]
+    return max(some, key=lambda s: s.evidence).candidate if some else None
 
 
 def _rests(judged: Judged) -> bool:

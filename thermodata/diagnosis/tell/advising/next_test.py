@@ -191,6 +191,12 @@ def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelI
     )
 
 
+def to_ask_of_locked(unforetold: CandidateEffect, then: str | None) -> str:
+    """The advice where left-out tests can't be asked of something. then: the advice that there is besides."""
+    asked = f"{unforetold.id} could not be asked: {unforetold.unforetold}"
+    return asked if then is None else f"{asked}; if it is not that, {then}"
+
+
 def to_find(
     tests: int,
     spots: Sequence[WeakSpot],
