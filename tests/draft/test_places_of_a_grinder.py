@@ -174,3 +174,26 @@ def test_what_a_bearing_is_of_is_not_put_into_a_mouth(name: str, at: str | None,
 def test_a_word_that_nobody_knows_makes_a_spindle_a_guess() -> None:
     assert guess("T_spindle", "degC").sure
     assert not guess("spindle_qfx", "degC").sure
+
+
+@pytest.mark.parametrize(
+    ("names", "asked"),
+    [
+        (("n_SSp", "n_WSp"), ["n_WSp"]),
+        (("n_HSp", "n_GSp", "n_HSp_soll"), ["n_GSp"]),
+        (("n_Sp_ist", "n_Sp_soll"), []),
+        (("n_ASp", "n_ASp_soll"), []),  # one letter alone tells no spindle from another
+    ],
+)
+def test_spindles_that_a_letter_tells_apart_are_not_all_the_main_one(
+    say: Say, tmp_path: Path, names: tuple[str, ...], asked: list[str]
+) -> None:
+    """WSp turns the part of a grinder: its speed was drafted at the spindle, 'sure', beside that of the wheel."""
+    rows = "".join(f"{60 * i},{','.join(str(100 * i) for _ in names)},{0.1 * i:.3f}\n" for i in range(60))
+    (tmp_path / "a.csv").write_text(f"t [s],{','.join(f'{n} [rpm]' for n in names)},dX [um]\n{rows}", encoding="utf-8")
+    say("init", tmp_path)
+    drafted = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    lines = {
+        n: next(line for line in drafted if f'signal: "{n} [rpm]"' in line or f"signal: {n}" in line) for n in names
+    }
+    assert [n for n in names if "# ? at: counter_spindle or rotary.c" in lines[n]] == asked

@@ -16,6 +16,8 @@ _END = re.compile(r"(?:.* )?(\S+) ([frl])")
 _OF_AXES = ("axis.", "rotary.")
 _LETTER = re.compile(r"(?:(.*) )?([xyzuvwabc])")
 _WITH_SIDES = ("column", "bed", "ram", "crossbeam")
+_KIND = re.compile(r"(?<!\S)([a-z]) (?:sp|spindel|spindle)(?!\S)")  # the S and W of SSp and WSp
+_MAIN = "hs"  # main (Haupt-), or that of the grinding wheel (Schleif-)
 _ORDER = {2: "second", 3: "third", 4: "fourth"}
 
 
@@ -123,17 +125,20 @@ def _count(channel: DraftChannel) -> int | None:
 
 def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:
     """A speed whose name does not say spindle is asked where another one of its source stands there; so is one that
-    does beside the speed of a grinding wheel, whose spindle is the machine's."""
+    does beside the speed of a grinding wheel, whose spindle is the machine's, and one of several spindles that a letter
+    tells apart: WSp beside SSp."""
     turning = [c for c in channels if c.said.quantity == "rotational_speed" and c.said.at == "spindle"]
     wheels = [c for c in turning if "grinding wheel" in places_in(_own(c))]
+    kinds = {c.name: m[1] for c in turning if (m := _KIND.search(_own(c)))}
     made = []
     for channel in channels:
         others = [c.name for c in turning if c is not channel and c.source == channel.source]
         wheel = [c.name for c in wheels if c is not channel] if channel not in wheels else []
-        of_spindle = channel in wheels or ("spindle" in places_in(_own(channel)) and not wheel)
+        another = kinds.get(channel.name, "s") not in _MAIN and bool(set(kinds.values()) & set(_MAIN))
+        of_spindle = channel in wheels or ("spindle" in places_in(_own(channel)) and not wheel and not another)
         if channel in turning and (others or wheel) and not of_spindle and not channel.said.questions:
             where = "counter_spindle or rotary.c, as a workhead, or spindle"
-            of_part = wheel or "workpiece" in places_in(_own(channel))
+            of_part = wheel or another or "workpiece" in places_in(_own(channel))
             asked = f"at: {where if of_part else 'spindle, rotary.c or table'}? "
             asked += f"{', '.join((wheel or others)[:3])} is drafted at the spindle, too"
             channel = replace(channel, said=replace(channel.said, sure=False, questions=(asked,)))
