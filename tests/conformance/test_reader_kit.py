@@ -10,10 +10,12 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import pytest
 
+from tests.conformance.broken_texts import BROKEN as TEXTS
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.testing import reader as kit
@@ -31,6 +33,42 @@ class Good:
         return "starts with PAIRLOG1" if head.start.startswith(MAGIC) else None
 
     def describe(self, path: Path, source: Source) -> Recording:
+        with path.open("rb") as file:
+            count, pairs = self.count(file), 0
+            while some := self.pairs(file, 1000):
+                pairs += len(some)
+        return Recording((Signal("T", "main", "degC"),), "relative", None, pairs == count)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        last, pairs = None, 0
+        with path.open("rb") as file:
+            count = self.count(file)
+            while some := self.pairs(file, int(source.options.get("block_rows", 100))):
+                t, v = zip(*some, strict=True)
+                last, pairs = t[-1], pairs + len(some)
+                yield Block("main", np.array(t, np.int64), {"T": np.array(v)})
+        if pairs < count:
+            yield Loss("end of file", last, None, 1 - pairs / count, "cut")
+
+    def count(self, file: BinaryIO) -> int:
+        head = file.read(12)
+        if not head.startswith(MAGIC) or len(head) < 12:
+            raise FormatError("no pair log", where=Path(file.name).name)
+        return int.from_bytes(head[8:], "little")
+
+    def pairs(self, file: BinaryIO, size: int) -> list[tuple[int, float]]:
+        """At most so many whole pairs of which the times are times."""
+        while data := file.read(PAIR.size * size):
+            good = [p for p in PAIR.iter_unpack(data[: len(data) // PAIR.size * PAIR.size]) if abs(p[0]) < 2**62]
+            if good:
+                return good
+        return []
+
+
+class Whole(Good):
+    """The same, all of it at once: what is broken on purpose below changes the pairs on their way."""
+
+    def describe(self, path: Path, source: Source) -> Recording:
         pairs, count = self.read(path)
         return Recording((Signal("T", "main", "degC"),), "relative", None, len(pairs) == count)
 
@@ -44,13 +82,9 @@ class Good:
             yield Loss("end of file", pairs[-1][0] if pairs else None, None, 1 - len(pairs) / count, "cut")
 
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
-        data = path.read_bytes()
-        if not data.startswith(MAGIC) or len(data) < 12:
-            raise FormatError("no pair log", where=path.name)
-        body = data[12:]
-        pairs = list(PAIR.iter_unpack(body[: len(body) // PAIR.size * PAIR.size]))
-        good = [p for p in pairs if abs(p[0]) < 2**62]
-        return good, int.from_bytes(data[8:12], "little")
+        with path.open("rb") as file:
+            count = self.count(file)
+            return self.pairs(file, 2**20), count
 
 
 class ClaimsAll(Good):
@@ -143,12 +177,12 @@ class LeavesAnIndex(Good):
         return super().describe(path, source)
 
 
-class InventsOutOfNothing(Good):
+class InventsOutOfNothing(Whole):
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
         return ([(0, 0.0)], 1) if path.stat().st_size == 0 else super().read(path)
 
 
-class CrashesOnGarbage(Good):
+class CrashesOnGarbage(Whole):
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
         assert path.read_bytes()[:8] == MAGIC
         return super().read(path)
@@ -159,7 +193,7 @@ class SilentAboutCuts(Good):
         return (b for b in super().blocks(path, source) if isinstance(b, Block))
 
 
-class TakesHalfAValue(Good):
+class TakesHalfAValue(Whole):
     """Fills the last, cut pair up with zeros."""
 
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
@@ -168,7 +202,7 @@ class TakesHalfAValue(Good):
         return ([*pairs, PAIR.unpack(rest.ljust(PAIR.size, b"\0"))] if len(rest) > 9 else pairs), count
 
 
-class CrashesOnDamage(Good):
+class CrashesOnDamage(Whole):
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
         pairs, count = super().read(path)
         return pairs, [0] * 50 and count if count <= len(pairs) + 50 else [][count]
@@ -192,7 +226,7 @@ class FillsOneBuffer(Good):
             yield b
 
 
-class OnePlaceForAll(Good):
+class OnePlaceForAll(Whole):
     """Keeps how far it has come on itself."""
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
@@ -204,7 +238,7 @@ class OnePlaceForAll(Good):
             yield Block("main", np.array([t], np.int64), {"T": np.array([v])})
 
 
-class OneScratchFileForAll(Good):
+class OneScratchFileForAll(Whole):
     """Unpacks into a fixed place, which another process empties.
 
     Where it is read by another process than this one, the first to come waits once for the second: that they meet
@@ -254,7 +288,7 @@ class ClosesAtTheEndOnly(Good):
         self.files.clear()
 
 
-class KeepsAMapping(Good):
+class KeepsAMapping(Whole):
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
         if path.stat().st_size:
             self.values = np.memmap(path, mode="r")
@@ -279,7 +313,7 @@ class ChangesFolder(Good):
         return super().describe(path, source)
 
 
-class TrustsTheCount(Good):
+class TrustsTheCount(Whole):
     """Makes room for as many pairs as the header promises."""
 
     def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
@@ -379,7 +413,7 @@ def test_what_the_author_says_is_hostile_is_tried(file: tuple[Path, Source]) -> 
     def mutate(data: bytes, rng: random.Random) -> bytes:
         return data[:8] + rng.randrange(2**16).to_bytes(4, "little") + data[12:]
 
-    class StumblesOverOddCounts(Good):
+    class StumblesOverOddCounts(Whole):
         def read(self, path: Path) -> tuple[list[tuple[int, float]], int]:
             pairs, count = super().read(path)
             return pairs, count if count % 2 == 0 or count > 2**16 else [][count]
@@ -399,7 +433,7 @@ def test_small_files_are_cut_at_every_byte() -> None:
 
 
 def test_every_check_has_a_broken_twin() -> None:
-    covered = {*BROKEN.values(), kit.it_is_made_without_arguments_and_has_a_name}
+    covered = {*BROKEN.values(), *TEXTS.values(), kit.it_is_made_without_arguments_and_has_a_name}
     assert covered == {*kit.CASE_CHECKS, *kit.FILE_CHECKS}
 
 

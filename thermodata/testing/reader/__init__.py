@@ -13,7 +13,8 @@
         check()
 
 Every check is a function with a sentence for a name; one that fails raises AssertionError with what is wrong, in
-which file and where, and with what to do ("try: ...").
+which file and where, and with what to do ("try: ..."). One that does not bear on a file (no row of a compressed
+file can be spoiled) is skipped with the reason, which `pytest -rs` prints.
 """
 
 from __future__ import annotations
@@ -21,9 +22,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from unittest import SkipTest
 
 from thermodata.plugin import Reader, Source
 from thermodata.reader.contract.rules import sentence
+from thermodata.testing.reader.altered import (
+    a_cell_without_a_value_gives_no_number,
+    a_line_that_is_no_row_is_told,
+    a_row_that_is_written_twice_arrives_twice,
+    a_word_among_numbers_gives_no_number,
+    rows_arrive_in_the_order_of_the_file,
+)
 from thermodata.testing.reader.case import Case, Data, Mutate, load
 from thermodata.testing.reader.claiming import (
     a_sniff_survives_any_head,
@@ -42,6 +51,7 @@ from thermodata.testing.reader.contents import (
 )
 from thermodata.testing.reader.damage import (
     a_cut_file_keeps_its_good_part_and_says_what_is_gone,
+    a_file_cut_within_a_record_is_told,
     a_hostile_header_costs_no_memory,
     an_empty_file_is_refused_or_holds_nothing,
     damage_never_escapes_as_a_foreign_error,
@@ -53,6 +63,7 @@ from thermodata.testing.reader.manners import (
     the_file_and_its_folder_stay_as_they_were,
     the_file_is_closed_after_use,
 )
+from thermodata.testing.reader.memory import memory_does_not_grow_with_the_file
 from thermodata.testing.reader.repeating import (
     processes_read_the_same,
     reading_again_gives_the_same,
@@ -91,6 +102,13 @@ FILE_CHECKS: tuple[Callable[[Case, Path, Source], None], ...] = (
     a_cut_file_keeps_its_good_part_and_says_what_is_gone,
     damage_never_escapes_as_a_foreign_error,
     a_hostile_header_costs_no_memory,
+    a_file_cut_within_a_record_is_told,
+    a_row_that_is_written_twice_arrives_twice,
+    rows_arrive_in_the_order_of_the_file,
+    a_cell_without_a_value_gives_no_number,
+    a_word_among_numbers_gives_no_number,
+    a_line_that_is_no_row_is_told,
+    memory_does_not_grow_with_the_file,
 )
 
 
@@ -116,6 +134,7 @@ def reader_checks(
     claims: Sequence[str] = (),
     block_rows: str | None = None,
     mutate: Mutate | None = None,
+    unordered: bool = False,
 ) -> list[Check]:
     """All checks of a reader, for pytest.mark.parametrize(..., ids=str).
 
@@ -124,8 +143,9 @@ def reader_checks(
     its own: in `impostors.IMPOSTORS`, and in the `heads` of other readers.
     block_rows: the key of `source.options` by which its blocks can be made smaller, where it has one.
     mutate(data, rng): makes a hostile file of a good one (a huge count, a length past the end); called 60 times.
+    unordered: the rows of these files are sorted by design, of a reader that does not say so of all that it reads.
     """
-    case = Case(make, tuple((Path(p), s) for p, s in good_files), tuple(claims), block_rows, mutate)
+    case = Case(make, tuple((Path(p), s) for p, s in good_files), tuple(claims), block_rows, mutate, unordered)
     return [Check(run, case) for run in CASE_CHECKS] + [
         Check(run, case, file) for file in case.files for run in FILE_CHECKS
     ]
@@ -138,12 +158,18 @@ def check_reader(
     claims: Sequence[str] = (),
     block_rows: str | None = None,
     mutate: Mutate | None = None,
+    unordered: bool = False,
 ) -> None:
-    """Runs all checks; AssertionError with every one that failed. The arguments are those of reader_checks."""
+    """Runs all checks that bear on the files; AssertionError with every one that failed. The arguments are those of
+    reader_checks."""
     failed = []
-    for check in reader_checks(make, good_files, claims=claims, block_rows=block_rows, mutate=mutate):
+    for check in reader_checks(
+        make, good_files, claims=claims, block_rows=block_rows, mutate=mutate, unordered=unordered
+    ):
         try:
             check()
+        except SkipTest:
+            continue
         except Exception as error:
             failed.append(f"{check}: {error if isinstance(error, AssertionError) else repr(error)}")
     assert not failed, "\n".join(failed)

@@ -24,6 +24,7 @@ class Case:
     make: its class. files: good files with what a campaign file would declare. claims: which of the kit's impostors
     are its own formats. block_rows: the option by which blocks can be made smaller, where it has one.
     mutate: makes a hostile file of a good one (huge counts and lengths); None: the kit's own ways only.
+    unordered: rows of these files are sorted by design, as of a reader that says so of all that it reads.
     """
 
     make: Callable[[], Reader]
@@ -31,6 +32,7 @@ class Case:
     claims: tuple[str, ...] = ()
     block_rows: str | None = None
     mutate: Mutate | None = None
+    unordered: bool = False
 
 
 @dataclass(frozen=True)
@@ -101,6 +103,16 @@ def difference(a: Data, b: Data) -> str | None:
         if not equal(a.flags[key], b.flags[key]):
             return f"the flags of '{key[1]}' differ"
     return None
+
+
+def tells(whole: Data, data: Data) -> bool:
+    """Whether a reader says anything of a changed file that it does not say of the whole one."""
+    return (
+        len(data.losses) > len(whole.losses)
+        or data.recording.complete is not whole.recording.complete
+        or data.recording.notes != whole.recording.notes
+        or any(bool(f.any()) and not equal(f, whole.flags.get(key, f[:0])) for key, f in data.flags.items())
+    )
 
 
 def head(path: Path) -> Head:

@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.plugin import Source
 from thermodata.schema.flag import INVALID
 from thermodata.testing.reader.apart import together
-from thermodata.testing.reader.case import Case, Data, equal, fault, load, refused_or_read
+from thermodata.testing.reader.case import Case, Data, equal, fault, load, refused_or_read, tells
 
 EVERY_CUT_BYTES = 1024  # a file up to this size is cut at every byte, a larger one at so many places:
 SAMPLED_CUTS = 150
@@ -68,6 +68,30 @@ def a_cut_file_keeps_its_good_part_and_says_what_is_gone(case: Case, path: Path,
             _stands_in(data, whole, what)
             # from a row or two a layout cannot be told, so that much may be refused
             readable = cut if max((t.size for t in data.t_ns.values()), default=0) >= 3 else readable
+
+
+def a_file_cut_within_a_record_is_told(case: Case, path: Path, source: Source) -> None:
+    """Also of a format that can't tell a whole file from one cut between two records: most cuts go through one."""
+    content = path.read_bytes()
+    whole = load(case.make(), path, source)
+    silent = []
+    with tempfile.TemporaryDirectory() as folder:
+        cut_path = Path(folder) / path.name
+        for cut in cuts(len(content)):
+            cut_path.write_bytes(content[:cut])
+            data = refused_or_read(case, cut_path, source, f"{path.name} cut at byte {cut}")
+            if data is not None and _lacks_rows(data, whole):
+                if tells(whole, data) or not _all_numbers(data, whole):
+                    return
+                silent.append(cut)
+    if silent:
+        fault(
+            f"{path.name} cut at byte {silent[-1]} of {len(content)}, and at {len(silent) - 1} places more\n"
+            "expected: a Loss where a record or line is cut through\n"
+            "got: fewer rows at each of them, and no word of it",
+            "yield a Loss(where, reason=...) for a last record or line that is not whole; describe with complete=None "
+            "where a cut between two of them can't be told",
+        )
 
 
 def damage_never_escapes_as_a_foreign_error(case: Case, path: Path, source: Source) -> None:
@@ -134,6 +158,19 @@ def _hostile(content: bytes, case: Case) -> Iterator[tuple[str, bytes]]:
     for number in range(HOSTILE_FILES if case.mutate is not None else 0):
         assert case.mutate is not None
         yield f"as mutate(..., random.Random({number})) makes it", case.mutate(content, random.Random(number))
+
+
+def _lacks_rows(data: Data, whole: Data) -> bool:
+    return any(data.t_ns.get(stream, t_ns[:0]).size < t_ns.size for stream, t_ns in whole.t_ns.items())
+
+
+def _all_numbers(data: Data, whole: Data) -> bool:
+    """Whether no value is missing that the whole file has, as of a row whose last cells were cut off."""
+    return all(
+        equal(np.isfinite(column), np.isfinite(whole.values[key][: column.size]))
+        for key, column in data.values.items()
+        if column.dtype.kind == "f" and key in whole.values and whole.values[key].dtype.kind == "f"
+    )
 
 
 def _stands_in(part: Data, whole: Data, what: str) -> None:
