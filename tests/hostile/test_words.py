@@ -265,7 +265,7 @@ def test_half_a_letter_in_a_campaign_file_is_refused_with_its_line(lab: Lab, lin
 @pytest.mark.parametrize(
     ("content", "name", "what"),
     [
-        (b'[{"time": 0, "T": 20.5},\n {"time": 1, "T": 20.6}]\n', "a.json", "JSON: export it as CSV"),
+        (b'[{"time": 0, "T": 20.5},\n {"time": 1, "T": 20.6}]\n', "a.json", "or export it as CSV"),
         (b"<html><table><tr><td>time</td><td>T</td></tr></table></html>", "a.xls", "save it as XLSX"),
         ("time,T\n0,20.5\n1,20.6\n".encode("utf-32"), "a.csv", "save it as UTF-8"),
     ],

@@ -14,6 +14,7 @@ from thermodata_reader_cnc import Reader
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.testing.reader import Data, load
+from thermodata.testing.reader.case import head
 
 START_S = 1_772_438_400  # 2026-03-02T08:00:00Z
 
@@ -87,3 +88,64 @@ def test_what_a_message_says_of_the_machine_parts_nothing(tmp_path: Path) -> Non
     assert set(values(read(tmp_path, messages))) == {"mode", "T"}
     machine = [{"ts": iso(k), "machine": {"name": "M1", "state": "RUN"}, "T": 20 + k / 10} for k in range(60)]
     assert set(values(read(tmp_path, machine))) == {"T"}
+
+
+MS = 1000 * START_S
+
+
+def test_tags_of_kepware_s_gateway_are_signals_of_their_own_with_their_quality(tmp_path: Path) -> None:
+    def tag(name: str, k: int, value: float) -> dict[str, Any]:
+        return {"id": f"Channel1.{name}", "v": value, "q": k != 3, "t": MS + 1000 * k}
+
+    lines = [{"timestamp": MS + 1000 * k, "values": [tag("T", k, 20.5), tag("n", k, 900 + k)]} for k in range(9)]
+    data = read(tmp_path, lines)
+    assert values(data) == {"Channel1.T": [20.5] * 9, "Channel1.n": [900.0 + k for k in range(9)]}
+    assert [int(f) for f in data.flags["nc", "Channel1.T"]] == [0, 0, 0, 128, 0, 0, 0, 0, 0]
+    data = read(tmp_path, [{"ts": iso(k), "id": "a", "v": 3.5, "T": 20.0 + k} for k in range(9)])
+    assert {"v", "T"} <= set(values(data))
+
+
+def test_lists_by_device_or_signal_are_no_one_signal(tmp_path: Path) -> None:
+    """As ThingsBoard's gateway and its interface write them."""
+    lines = [
+        {f"Device {d}": [{"ts": MS + 60_000 * k, "values": {"T": 20.0 + 5 * j}}]}
+        for k in range(20)
+        for j, d in enumerate("AB")
+    ]
+    got = values(read(tmp_path, lines))
+    assert got.keys() == {"Device A/values.T", "Device B/values.T"}
+    assert {20.0} == {v for v in got["Device A/values.T"] if v == v}
+    alone = [{"Device A": [{"ts": MS + 60_000 * k, "values": {"T": 20.0}}]} for k in range(20)]
+    assert values(read(tmp_path, alone)).keys() == {"values.T"}
+    whole = {n: [{"ts": MS + 60_000 * k, "value": str(v)} for k in range(20)] for n, v in (("T", 20.5), ("n", 900))}
+    got = values(read(tmp_path, [whole]))
+    assert got.keys() == {"T/value", "n/value"}
+    assert {20.5} == {v for v in got["T/value"] if v == v}
+
+
+def test_a_pack_of_senml_has_its_bases(tmp_path: Path) -> None:
+    pack = [{"bn": "urn:dev:1:", "bt": START_S, "bu": "Cel", "bv": 20, "n": "T1", "v": 0.5}]
+    pack += [{"n": "T1", "t": 60 * k, "v": k / 8} for k in range(1, 12)]
+    pack += [{"n": "rh", "u": "%RH", "t": 60 * k, "v": 20 + k} for k in range(12)]
+    data = read(tmp_path, [pack])
+    assert [(s.name, s.unit) for s in data.recording.signals] == [("urn:dev:1:T1", "Cel"), ("urn:dev:1:rh", "%RH")]
+    assert data.t_ns["nc"][:2].tolist() == [START_S * 10**9, (START_S + 60) * 10**9]
+    got = values(data)["urn:dev:1:T1"]
+    assert [20.5, *(20 + k / 8 for k in range(1, 12))] == [v for v in got if v == v][:12]
+    packs = [[{"bn": "m:", "bt": START_S + 60 * k, "n": "T", "u": "Cel", "v": 20 + k}] for k in range(9)]
+    assert values(read(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(9)]}
+
+
+def test_senml_that_counts_back_from_now_is_not_dated(tmp_path: Path) -> None:
+    path = tmp_path / "log.json"
+    path.write_text(json.dumps([{"bn": "m:", "n": "T", "t": -10 * k, "v": 20 + k} for k in range(9)]) + "\n")
+    assert Reader().sniff(head(path)) is None
+
+
+def test_an_array_is_read_with_its_brackets_beside_its_objects(tmp_path: Path) -> None:
+    path = tmp_path / "log.json"
+    objects = [json.dumps({"ts": iso(k), "T": 20.0 + k}) for k in range(9)]
+    path.write_text("[" + ",\n".join(objects) + "]\n")
+    data = load(Reader(), path, Source())
+    assert values(data) == {"T": [20.0 + k for k in range(9)]}
+    assert not data.losses

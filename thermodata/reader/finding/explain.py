@@ -43,7 +43,17 @@ _ARCHIVE = "a ZIP archive of files"
 # The first lines of what is text, and no table whatever is declared
 _TEXTS: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"(?i)\s*<(?:!doctype\s+html|html|table)\b"), "an HTML page, whatever it is called: save it as XLSX"),
-    (re.compile(r"\s*(?:\{\s*\"|\[\s*[\[{])"), "JSON: export it as CSV"),
+    (
+        re.compile(r"\s*\{\s*\"[^\"]*\"\s*:\s*\[\s*\{"),
+        "JSON, lists of objects by their names: write an object a line: jq -c 'to_entries[] | .key as $name | "
+        ".value[] | {name: $name} + .' FILE > lines.json; or export it as CSV",
+    ),
+    (
+        re.compile(r"\s*\[\s*\{"),
+        "JSON, an array of objects: write an object a line: jq -c '.[]' FILE > lines.json (a pack of SenML: jq -c . "
+        "FILE > lines.json); or export it as CSV",
+    ),
+    (re.compile(r"\s*(?:\{\s*\"|\[\s*\[)"), "JSON: export it as CSV"),
 )
 
 

@@ -1,6 +1,7 @@
 """Lines of JSON, an object each, as brokers' dumps, Telegraf and scripts write them: `{"ts": ..., "topic": ...,
 "value": ...}`, `{"time": ..., "T1": 20.5, "T2": 20.6}`, Telegraf's `fields` and `tags`, the `vals` and `records` of
-Industrial Edge [IE Common Databus Payload Format]; also those of an array that holds an object a line.
+Industrial Edge [IE Common Databus Payload Format], the `id`, `v`, `q`, `t` of Kepware's IoT gateway; also those of an
+array that holds an object a line, and an array a line, as a pack of SenML.
 
 Messages of several sensors are parted by what they say of these: labels, also of an object beside the values, or a key
 that parts them as a column does the rows of a table. A value holds until the next one of its name, but for objects that
@@ -24,6 +25,7 @@ from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata.reader.text.file.losses import NAMED
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
+from thermodata_reader_cnc.messages import senml
 from thermodata_reader_cnc.messages.json_text import loads
 from thermodata_reader_cnc.messages.reports import Report, is_bad, reports
 from thermodata_reader_cnc.messages.senders import Senders, senders
@@ -45,25 +47,36 @@ _ZERO_OF = "quality"
 def claims(lines: Sequence[str]) -> str | None:
     """The reason for claiming lines of text, or None."""
     full = [text for line in lines if (text := _object_of(line))][:_LOOKED_AT]
-    if len(full) < _FEWEST or full[0][0] != "{":
+    if not full or full[0][0] not in "{[":
         return None
-    timed = sum(1 for text in full if (found := _read(text)) and found[0].time)
-    return "lines of JSON, each an object with a time" if timed >= _NEARLY_ALL * len(full) else None
+    found = [_read(text) for text in full]
+    timed = sum(1 for each in found if each and each[0].time)
+    several = len(full) >= _FEWEST or len({r.time for each in found if each for r in each}) >= _FEWEST
+    return "lines of JSON, each an object with a time" if several and timed >= _NEARLY_ALL * len(full) else None
 
 
 def _object_of(line: str) -> str:
     """The object in a line, '' where it only begins or ends an array."""
     text = line.strip().strip("\ufeff").removesuffix(",").rstrip()
+    if text.startswith("[{") and not text.endswith("]"):
+        return text[1:]
+    if text.startswith("{") and text.endswith("}]"):
+        return text[:-1]
     return "" if text in ("[", "]") else text
 
 
 def _read(text: str) -> list[Report] | None:
-    """What an object reports; None where it is none."""
+    """What an object reports, or an array of such; None where it is none."""
     try:
         message = loads(text)
     except (ValueError, RecursionError):
         return None
-    return list(reports(message)) if isinstance(message, dict) else None
+    if isinstance(message, dict):
+        return list(reports(message))
+    if not isinstance(message, list) or not message or not all(isinstance(each, dict) for each in message):
+        return None
+    each_one = senml.resolved(message) if senml.is_pack(message) else message
+    return [report for one in each_one for report in reports(one)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,6 @@ from thermodata_reader_cnc.messages.json_text import Number, loads
 from thermodata_reader_cnc.messages.shape import QC, Shape, shape_of
 from thermodata_reader_cnc.opcua.long_layout import bare
 
-MOST = 1000  # values of one message
 _DEEPEST = 8  # objects within objects
 _LONGEST_WORD = 64  # letters of a time, a unit, a quality
 _MOST_ELEMENTS = 16  # numbers of an array that are signals of their own
@@ -43,11 +42,8 @@ class _Place(NamedTuple):
 
 
 def reports(message: Any) -> Iterator[Report]:
-    """The values of a message, MOST of them at most. One without a time has none ('')."""
-    for n, each in enumerate(_of(message, _Place())):
-        if n >= MOST:
-            return
-        yield each
+    """The values of a message. One without a time has none ('')."""
+    return _of(message, _Place())
 
 
 def _of(value: Any, at: _Place) -> Iterator[Report]:
@@ -121,9 +117,18 @@ def _of_values(message: Mapping[str, Any], at: _Place, told: frozenset[str]) -> 
     for key, value in message.items():
         if key in told:
             continue
-        held = isinstance(value, list) and any(isinstance(each, dict) for each in value)
-        name = at.name if held else ".".join(filter(None, (at.name, key)))
-        yield from _of(value, _Place(at.time, at.labels, name, at.depth + 1))
+        held = next((each for each in value if isinstance(each, dict)), None) if isinstance(value, list) else None
+        if held is None:
+            place = _Place(at.time, at.labels, ".".join(filter(None, (at.name, key))), at.depth + 1)
+        else:
+            place = _Place(at.time, (*at.labels, *_told_by(key, held)), at.name, at.depth + 1)
+        yield from _of(value, place)
+
+
+def _told_by(key: str, held: Mapping[str, Any]) -> tuple[str, ...]:
+    """What the key of a list of objects says of them that they don't say themselves: the device or signal they are of,
+    as ThingsBoard writes them."""
+    return () if shape_of(tuple(held)).name is not None or held.keys() >= _TELEGRAF else (key,)
 
 
 def _of_list(values: Sequence[Any], at: _Place) -> Iterator[Report]:

@@ -19,6 +19,8 @@ _ID = "id"  # names what is beside a value, and elsewhere the message
 _OF_MESSAGE = frozenset(
     {"qos", "retain", "dup", "mid", "payloadlen", "properties", "seq", "rseq", "qx", "datatype", "alias"}
 )
+# of Kepware's IoT gateway: an object that has these keys and no other
+_SHORT = {"id": "id", "v": "value", "q": "quality", "t": "time"}
 _NULL = "isnull"  # of Sparkplug, in place of a value
 QC = "qc"  # of Industrial Edge: 0 is bad, 1 uncertain, 2 and 3 good
 
@@ -49,6 +51,8 @@ class Shape:
 def shape_of(keys: tuple[str, ...]) -> Shape:
     """The shape of an object with these keys."""
     names = [bare(k) for k in keys]
+    if {"id", "v"} <= set(names) <= _SHORT.keys():
+        names = [_SHORT[n] for n in names]
 
     def first(words: tuple[str, ...]) -> str | None:
         return next((keys[names.index(w)] for w in words if w in names), None)
