@@ -161,3 +161,33 @@ def test_a_unit_that_changes_within_what_a_sensor_sends_is_of_that_sensor_alone(
         assert any("'degF' is converted to 'degC'" in n for n in recording.notes)
     else:
         assert ["40 rows of 'T_front' in another unit than 'degC': bar" in loss.reason for loss in losses] == [True]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"unit": "degC"},
+        {"engineeringUnit": "degC"},
+        {"description": "bearing, front [degC]"},
+        {"description": "Temperature in degC."},
+        {"title": "S1 (degC)"},
+        {"$ref": "#/$defs/celsius"},
+    ],
+)
+def test_a_schema_says_a_unit_in_more_than_one_way(tmp_path: Path, write: Any, read: Any, said: dict[str, str]) -> None:
+    schema = {
+        "type": "object",
+        "properties": {"S1": said if "$ref" in said else {"type": "number", **said}, "S2": {"description": "in use"}},
+        "$defs": {"celsius": {"type": "number", "unit": "degC"}},
+    }
+    messages = [("/ai", T0 + k * STEP, {"S1": 20.0 + k, "S2": 1.5}) for k in range(9)]
+    recording = read(write(tmp_path / "a.mcap", messages, schema=schema))[0]
+    assert {s.name: s.unit for s in recording.signals if "S" in s.name} == {"/ai.S1": "degC", "/ai.S2": None}
+
+
+def test_a_schema_that_refers_to_itself_is_read(tmp_path: Path, write: Any, read: Any) -> None:
+    schema = {"properties": {"S1": {"$ref": "#/$defs/a"}}, "$defs": {"a": {"$ref": "#/$defs/a"}}}
+    recording = read(
+        write(tmp_path / "a.mcap", [("/ai", T0 + k * STEP, {"S1": 20.0 + k}) for k in range(9)], schema=schema)
+    )[0]
+    assert {s.name: s.unit for s in recording.signals if "S1" in s.name} == {"/ai.S1": None}

@@ -13,7 +13,8 @@ from thermodata_reader_mcap.encodings.json.text import loads
 from thermodata_reader_mcap.encodings.topic import Hint
 
 OF_ARRAY = "array description"  # the property of an element: what a schema says of all of them
-_UNIT_KEYS = ("unit", "units", "x-unit", "x-units")
+_UNIT_KEYS = ("unit", "units", "x-unit", "x-units", "engineeringUnit", "engineeringUnits")
+_MOST_REFERENCES = 8
 
 
 @dataclass(slots=True)
@@ -34,25 +35,41 @@ class JsonDecoder:
 
     def hint(self, path: Path) -> Hint | None:
         """What the JSON Schema says of a path; None where it says nothing."""
-        node, of_array = self.schema, None
+        node, of_array = self._meant(self.schema), None
         for part in path:
             if not isinstance(node, Mapping):
                 return None
             of_array = node.get("description") if isinstance(part, int) else None
             inner = node.get("items") if isinstance(part, int) else node.get("properties")
-            node = inner if isinstance(part, int) else inner.get(part) if isinstance(inner, Mapping) else None
+            node = self._meant(
+                inner if isinstance(part, int) else inner.get(part) if isinstance(inner, Mapping) else None
+            )
         if not isinstance(node, Mapping):
             return None
         kind = node.get("type")
         if isinstance(kind, list):
             kind = next((k for k in kind if k != "null"), None)
         unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
-        said = {k: node[k] for k in node if k == "description" and isinstance(node[k], str)}
+        described = node.get("description", node.get("title"))
+        said = {"description": described} if isinstance(described, str) else {}
         if isinstance(of_array, str) and not said:
             said[OF_ARRAY] = of_array
         bare = {k.removeprefix("x-"): v for k, v in node.items()}
         said |= {k: str(v) for k, v in bare.items() if states_scale(k) and isinstance(v, str | int | float)}
         return Hint(kind if isinstance(kind, str) else None, unit, tuple(said.items()))
+
+    def _meant(self, node: Any) -> Any:
+        """What a node of the schema stands for: of a reference ('#/$defs/celsius') what it names, with what is said
+        beside it."""
+        for _ in range(_MOST_REFERENCES):
+            if not isinstance(node, Mapping) or not isinstance(to := node.get("$ref"), str) or not to.startswith("#/"):
+                break
+            found: Any = self.schema
+            for key in to[2:].split("/"):
+                found = found.get(key) if isinstance(found, Mapping) else None
+            beside = {k: v for k, v in node.items() if k != "$ref"}
+            node = {**found, **beside} if isinstance(found, Mapping) else beside
+        return node
 
 
 def json_schema(data: bytes) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.reader.signals.row_units import converts_here
 from thermodata.reader.signals.unit_words import is_surely_unit
+from thermodata.reader.text import split_unit
 from thermodata.schema.units.quantity import linear_conversion, normal_unit
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.encodings.columns import MISSING, Columns, Wrong
@@ -19,6 +20,7 @@ from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.topic import Hint, Topic
 
 _KEY = re.compile(r"(?:units?[._/: -]+(?P<behind>.+)|(?P<before>.+?)[._/: -]+units?)", re.IGNORECASE)
+_IN = re.compile(r"\S\s+in\s+(\S+?)\.?$")  # 'temperature in degC'
 _ALONE = re.compile(r"units?", re.IGNORECASE)
 
 
@@ -110,11 +112,13 @@ def _declared(channel: Channel, one: Decoder, topic: Topic) -> dict[str, str]:
 
 
 def _of_schema(hint: Hint | None) -> str | None:
-    """The unit that a schema says of a field, or that is all of its description."""
+    """The unit that a schema says of a field, or that is its description, or stands at its end."""
     if hint is None or hint.unit:
         return None if hint is None else hint.unit
     said = dict(hint.properties).get("description", "").strip()
-    return said if len(said) > 1 and is_surely_unit(said) else None
+    behind = _IN.search(said)
+    unit = split_unit(said)[1] or (behind[1] if behind else said)
+    return unit if len(unit) > 1 and is_surely_unit(unit) else None
 
 
 def _spellings(path: Path) -> tuple[str, ...]:
