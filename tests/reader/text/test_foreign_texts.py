@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -129,3 +130,22 @@ def test_a_line_of_quotes_has_one_way_to_be_read() -> None:
 )
 def test_what_may_hold_a_table_is_none_of_them(text: str) -> None:
     assert foreign_text(text.splitlines()) is None
+
+
+def test_what_camonitor_prints_becomes_a_table_of_names_and_values(tmp_path: Path) -> None:
+    lines = [
+        f"LAB:T{k}                         2026-03-01 08:00:{i:02}.123456 {20 + i}  " for i in range(9) for k in (1, 2)
+    ]
+    lines[3] = "LAB:T2                         2026-03-01 08:00:01.123456 99 HIHI MAJOR"
+    lines[5] = "LAB:T3                         *** Not connected (PV not found)"
+    found = foreign_text(lines)
+    assert found is not None
+    assert found[0].startswith("what camonitor of EPICS prints")
+    (tmp_path / "FILE").write_text("\n".join(lines) + "\n")
+    subprocess.run(["bash", "-c", found[1].removeprefix("make a CSV of it: ")], cwd=tmp_path, check=True)
+    made = (tmp_path / "camonitor.csv").read_text().splitlines()
+    assert made[:2] == ["name,time,value,severity", "LAB:T1,2026-03-01 08:00:00.123456,20,"]
+    assert made[4] == "LAB:T2,2026-03-01 08:00:01.123456,99,MAJOR"
+    assert len(made) == len(lines)
+    # two values in a line are a table
+    assert foreign_text([f"T{i} 2026-03-01 08:00:{i:02}.123456 20.5 21.5" for i in range(9)]) is None

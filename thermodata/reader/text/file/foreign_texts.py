@@ -29,6 +29,10 @@ BY_PYUFF = (
     "(d := u.read_sets(i))['type'] == 58]; p.concat([p.Series(d['data'], d['x'], name=d['id1'] + ' [' + "
     "d['ordinate_axis_units_lab'] + ']') for d in s], axis=1).to_csv('uff.csv', index_label='time [s]')\""
 )
+# of one channel of EPICS: its name, the time, one value, and an alarm where there is one
+_MONITORED = re.compile(
+    r"\S*[^\W\d]\S*\s+(?:\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{6}\s+\S+(?:\s+[A-Z_]+\s+[A-Z_]+)?|\*\*\* .+)\s*"
+)
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
 _FEWEST = 2
 
@@ -112,6 +116,11 @@ def _is_dump_of_can(lines: Sequence[str]) -> bool:
     return len(points) >= _FEWEST and all(map(_OF_CAN.fullmatch, points))
 
 
+def _is_camonitor(lines: Sequence[str]) -> bool:
+    points = lines[:-1] or lines
+    return len(points) >= _FEWEST and all(map(_MONITORED.fullmatch, points))
+
+
 def _is_dump_of_rrd(lines: Sequence[str]) -> bool:
     """Whether `rrdtool fetch` printed it: names, then '1773129600: 2.11e+01 2.15e+01'."""
     points = lines[1:-1]
@@ -149,6 +158,12 @@ _KNOWN = (
         _is_dump_of_can,
         "messages of a CAN bus in bytes (candump)",
         "decode them by the DBC file of the bus, as asammdf and cantools do, to MDF or to a CSV of time,name,value",
+    ),
+    (
+        _is_camonitor,
+        "what camonitor of EPICS prints, a line a value",
+        "make a CSV of it: (echo name,time,value,severity; sed -nE "
+        "'s/^(\\S+) +(\\S+ [0-9:.]+) +(\\S+) *\\S* *(\\S*) *$/\\1,\\2,\\3,\\4/p' FILE) > camonitor.csv",
     ),
     (
         _is_dump_of_rrd,
