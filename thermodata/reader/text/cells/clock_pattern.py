@@ -15,7 +15,7 @@ _BEFORE = "|".join((*_FORENOON, *_AFTERNOON))
 # hours to seconds; more digits than nanoseconds are cut
 CLOCK = (
     rf"(?:(?P<q>{HALF}|{_BEFORE}){BLANK}*)?(?P<H>\d{{1,2}})(?::|[時时시]{BLANK}?)(?P<M>\d{{2}})"
-    rf"(?:(?::|[分분]{BLANK}?)(?P<S>\d{{2}})(?:[.,:](?P<f>\d{{1,9}})\d*)?)?[分분秒초]?(?:{BLANK}*(?P<p>{HALF}))?"
+    rf"(?:(?::|[分분]{BLANK}?)(?P<S>\d{{2}})(?:[.,:;](?P<f>\d{{1,9}})\d*)?)?[分분秒초]?(?:{BLANK}*(?P<p>{HALF}))?"
 )
 _ALONE = re.compile(rf"{HALF}|{_BEFORE}")
 _CLOCKED = re.compile(r"[:時时시]")

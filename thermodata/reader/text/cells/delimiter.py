@@ -15,6 +15,8 @@ DELIMITERS = (";", "\t", ",", "|")
 BLANKS = " "  # as many as there are, tabs among them: columns that stand below each other
 _WORDS = {"tab": "\t", "\\t": "\t", "semicolon": ";", "comma": ",", "space": BLANKS, "blank": BLANKS, "blanks": BLANKS}
 _LOOKED_AT = 500
+# 'Date,Time,T1' of Studio 5000: "3/1/2026","08:30:10;123","21.5"
+_MILLISECONDS = re.compile(r'(,"?\d{1,2}:\d{2}:\d{2});(?=\d{3}"?,)')
 _BETWEEN = re.compile(r"[ \t]+(?![\[(])")  # a unit in brackets belongs to the name before it
 _BETWEEN_BYTES = re.compile(rb"[ \t]+(?![\[(])")
 # a cell in quotes keeps its blanks; '2" probe' is none
@@ -69,7 +71,7 @@ def find_delimiter(lines: Sequence[str]) -> str | None:
     """
     if lines and lines[0].lower().startswith("sep=") and len(lines[0].strip()) == 5:
         return lines[0].strip()[-1]
-    body = [line for line in lines if line.strip()]
+    body = [_MILLISECONDS.sub(r"\1.", line) for line in lines if line.strip()]
     body = body[len(body) // 3 :][-_LOOKED_AT:]  # preamble has other lengths
     best: tuple[float, str] | None = None
     for delimiter in DELIMITERS:

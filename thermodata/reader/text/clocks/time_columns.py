@@ -26,7 +26,7 @@ from thermodata.reader.text.times.time_cells import with_parts
 from thermodata.reader.times.time_units import SECONDS
 
 _HINT = "declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates"
-_FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
+_FRACTION = re.compile(rf":\d\d:\d\d[.,:;]\d+{BLANK}*({HALF})?$")
 
 
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
