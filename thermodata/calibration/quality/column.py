@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.calibration.quality.ends.range import Limits
 from thermodata.calibration.quality.event import QualityEvent, event_of, events_of
+from thermodata.calibration.quality.last_row import Reading, last_row_repeats
 from thermodata.calibration.quality.sun import least_count_of_sun
 from thermodata.calibration.quality.time import TimeFlags
 from thermodata.calibration.quality.value import RunStats, run_stats
@@ -73,6 +74,16 @@ class Stream:
     def stats(self) -> Mapping[str, RunStats]:
         """Channel -> how it runs, of columns of ANALOG quantities that nobody writes on change."""
         return {name: run_stats(x) for name, c in self.columns.items() if (x := _analog(c)) is not None}
+
+    @cached_property
+    def repeats_from(self) -> int | None:
+        """See `last_row.last_row_repeats`."""
+        told = {
+            name: Reading(c.values, c.quantity, self.stats.get(name), c.elsewhere)
+            for name, c in self.columns.items()
+            if c.is_number and not c.held
+        }
+        return last_row_repeats(self.t_ns, told)
 
 
 def _analog(column: ColumnInput) -> Float1D | None:

@@ -16,8 +16,8 @@ import numpy as np
 from thermodata.calibration.quality.value import RunStats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
-_LEAST_S = 1800.0
-_LEAST_SAMPLES = 100
+LEAST_S = 1800.0
+LEAST_SAMPLES = 100
 _STRETCH = 50  # samples that tell how often it changes
 _LEAST_STRETCHES = 4
 _MOST_EQUAL = 0.6  # of the neighbours, in every stretch: noise of half a count's standard deviation makes fewer
@@ -46,16 +46,15 @@ def frozen_runs(
     """(start, stop, why) of stretches in which a temperature x, shape (n,), is frozen. others: the temperatures
     that are logged with it; where there is none, or most of them rest as well, nothing is told. stand: see
     `drives_stand`."""
-    long = own.lengths >= _LEAST_SAMPLES
+    long = own.lengths >= LEAST_SAMPLES
     runs = [
         (start, start + length)
         for start, length in zip(own.starts[long].tolist(), own.lengths[long].tolist(), strict=True)
-        if t_ns[start + length - 1] - t_ns[start] >= _LEAST_S * 1e9
+        if t_ns[start + length - 1] - t_ns[start] >= LEAST_S * 1e9
     ]
     if not runs or not others:
         return
-    equal = _equal_in_noise(x, own.finest, runs)
-    if equal is None or equal > _MOST_EQUAL:
+    if not flickers(x, own.finest, runs):
         return
     quiet = stand is not None and not _flickers_at_rest(stand, runs)
     for start, stop in runs:
@@ -63,6 +62,13 @@ def frozen_runs(
             continue
         if np.mean([_goes_on(y, start, stop) for y in others.values()]) >= _GO_ON:
             yield start, stop, f"exactly {x[start]:.6g} for {stop - start} samples; elsewhere it changes all the time"
+
+
+def flickers(x: Float1D, count: float, runs: list[tuple[int, int]]) -> bool:
+    """Whether a channel x, shape (n,), changes every few samples, by noise of its own, all the time outside of some
+    runs. count: its least change."""
+    equal = _equal_in_noise(x, count, runs)
+    return equal is not None and equal <= _MOST_EQUAL
 
 
 def _equal_in_noise(x: Float1D, count: float, runs: list[tuple[int, int]]) -> float | None:

@@ -156,6 +156,17 @@ def froze_while_it_was_logged(seen: Marked) -> None:
             seen.mark_rows(Flag.STUCK, start, stop, why)
 
 
+def the_log_repeats_its_last_row(seen: Marked) -> None:
+    """A log that died whole: what each of its readings says from there on, nobody measured; see `quality.last_row`."""
+    start = seen.stream.repeats_from
+    if start is None or not seen.column.is_number or seen.column.held or seen.has(_TOLD, slice(start, None)).any():
+        return
+    stop = len(seen.x)
+    seen.mark_rows(
+        Flag.HELD, start, stop, f"the log repeats its last row: all stands to its end, {stop - start} samples"
+    )
+
+
 def leaves_for_a_few_samples(seen: Marked) -> None:
     """A spike. Many of them may be what a log of measuring phases looks like: that is told, and not flagged."""
     if seen.stats is None or seen.column.quantity not in _INERT:
@@ -202,6 +213,7 @@ RULES: tuple[Rule, ...] = (
     as_given,
     held_or_stuck,
     froze_while_it_was_logged,
+    the_log_repeats_its_last_row,
     leaves_for_a_few_samples,
     steps_and_stays,
 )
