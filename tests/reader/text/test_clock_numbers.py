@@ -170,3 +170,18 @@ def test_parts_beyond_those_of_a_second_are_a_signal(tmp_path: Path) -> None:
     rows = [f"12.03.2026;08:00:{k:02d};{k};{20 + k / 9:.2f}" for k in range(50)]
     (tmp_path / "a.csv").write_text("\n".join(["Date;Time;1/10s;T", *rows, ""]))
     assert len(load(Reader(), tmp_path / "a.csv", Source(timezone="UTC")).values) == 2
+
+
+def test_a_temperature_behind_the_clock_is_no_second_where_arrays_share_their_times(tmp_path: Path) -> None:
+    """As a CR10X writes several: each with its number, in rows of its own length."""
+    rows = []
+    for k in range(60):
+        rows.append(f"101,2026,60,{800 + k},{21 + k / 10:.2f},12.6,3.5")
+        rows += [f"102,2026,60,{800 + k},{30 + k / 10:.2f}"] if k % 5 == 0 else []
+    (tmp_path / "a.dat").write_text("\n".join([*rows, ""]))
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), tmp_path / "a.dat", Source(timezone="UTC"))
+    assert asked.value.declare == {"time": {"column": [2, 3, 4], "format": "%Y %j %H%M"}}
+    data = load(Reader(), tmp_path / "a.dat", Source(timezone="UTC", table=asked.value.declare))
+    assert data.values["table", "column 5"].tolist() == [round(21 + k / 10, 2) for k in range(60)]
+    assert [loss.where for loss in data.losses][:1] == ["a.dat line 2"]

@@ -161,12 +161,20 @@ def _unnamed(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
         reads = partial(_of_year, tuple(pieces))
         for year in range(len(seen.names) - len(pieces)):
             times = [reads(" ".join(str(c) for c in r[year : year + len(pieces)])) for r in seen.rows]
-            rises = all(a <= b for a, b in pairwise(times)) and len(set(times)) >= least * len(times)
+            apart = len(set(zip(_kinds(seen, year), times, strict=True)))
+            rises = all(a <= b for a, b in pairwise(times)) and apart >= least * len(times)
             if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in seen.rows}) <= 2:
                 return tuple(range(year, year + len(pieces))), form
     return None
 
 
+def _kinds(seen: FirstRows, year: int) -> list[Cell]:
+    """What says of each row of which kind it is: a number of few before the year, as of Campbell's arrays."""
+    kinds = [r[year - 1] if year else "" for r in seen.rows]
+    return kinds if _MANY_OF_A_KIND * len(set(kinds)) <= len(kinds) else [""] * len(kinds)
+
+
+_MANY_OF_A_KIND = 3  # rows, in the mean
 _SINCE_1990 = 20 * 365 * DAY_NS  # a year of any log
 DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", "julianday", "julian", "jday", "yday")
 _CLOCKS = {
