@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -49,3 +51,16 @@ def test_a_few_words_in_the_shape_of_units_are_no_values(tmp_path: Path, words: 
 def test_a_table_of_such_cells_only_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="cells that hold their units beside their numbers"):
         read(tmp_path, "2026-03-02 08:{m:02d}:00,21.{m} °C,{m}00 rpm")
+
+
+def test_the_command_that_is_offered_takes_the_units_out(tmp_path: Path) -> None:
+    lines = ["Time;T1;RH", *(f"2026-03-01 08:{i:02}:00;{20 + i / 8:.2f} °C;{40 + i} %RH" for i in range(20))]
+    (tmp_path / "FILE").write_text("\n".join([*lines, ""]))
+    with pytest.raises(FormatError) as refused:
+        load(Reader(), tmp_path / "FILE", Source())
+    command = re.search(r"sed .* > plain.csv", str(refused.value))
+    assert command is not None
+    subprocess.run(["bash", "-c", command[0]], cwd=tmp_path, check=True)
+    data = load(Reader(), tmp_path / "plain.csv", Source())
+    assert data.values["table", "T1"].tolist() == [round(20 + i / 8, 2) for i in range(20)]
+    assert data.values["table", "RH"].tolist() == [40 + i for i in range(20)]

@@ -26,8 +26,15 @@ def refuse_units_in_cells(cells: Sequence[Cell], where: str) -> None:
             where=where,
             expected="numbers, with their unit in the header",
             got=shown[0],
-            hint="export the values without their units (raw values), or take these out of the cells",
+            hint="export the values without their units (raw values), or take these out of the cells: "
+            f"{_taken_out(shown)}, and write the unit behind the name: 'T [degC]'",
         )
+
+
+def _taken_out(cells: Sequence[str]) -> str:
+    """A command that takes the units out of a text."""
+    units = dict.fromkeys(m["unit"].strip() for c in cells if (m := _WITH_UNIT.match(c)))
+    return f"sed -E 's#([0-9]) ?({'|'.join(map(re.escape, units))})#\\1#g' FILE > plain.csv"
 
 
 def unit_note(cells: Sequence[Cell], name: str) -> str | None:
@@ -44,5 +51,6 @@ def unit_note(cells: Sequence[Cell], name: str) -> str | None:
         return None
     return (
         f"column '{name}' is read as words, for its cells hold their unit beside their numbers ('{full[0]}'): "
-        f"export the values without '{unit}', or options: {{text: ['{name}']}} in the source where they are words"
+        f"export the values without '{unit}', or take it out: {_taken_out(full)}; or options: {{text: ['{name}']}} in "
+        "the source where they are words"
     )
