@@ -284,3 +284,12 @@ def test_recordings_of_other_programs_are_named(tmp_path: Path, name: str, start
     assert what in said.kind
     assert do in said.kind
     assert said.advice is None
+
+
+def test_letters_that_were_encoded_twice_are_shown_as_they_were_meant(tmp_path: Path) -> None:
+    meant = "Zeit;Spindelkühlung [°C];Weg [µm]"
+    rows = "".join(f"2026-03-01 08:0{i}:00;21.{i};3\n" for i in range(9))
+    (tmp_path / "a.csv").write_text(meant.encode().decode("cp1252") + "\n" + rows, encoding="utf-8")
+    assert f", meant '{meant}': its letters were encoded twice" in explain(tmp_path / "a.csv").kind
+    (tmp_path / "a.csv").write_text(meant + "\n" + rows, encoding="utf-8")
+    assert "twice" not in explain(tmp_path / "a.csv").kind

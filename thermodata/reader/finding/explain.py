@@ -160,7 +160,16 @@ def _kind(start: Head) -> str:
     between = f", {_MARKS.get(delimiter, repr(delimiter))} between cells" if delimiter is not None else ""
     if "\ufffd" in first:
         return f"text{between}, in an encoding that it does not name"
-    return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'"
+    return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'{_encoded_twice(first)}"
+
+
+def _encoded_twice(line: str) -> str:
+    """What is told of letters that were written in UTF-8, read as another encoding and written in UTF-8 again."""
+    try:
+        meant = line.encode("cp1252").decode("utf-8")
+    except UnicodeError:
+        return ""
+    return "" if meant == line else f", meant '{meant[:50]}': its letters were encoded twice; export it anew as UTF-8"
 
 
 def _no_table(text: str) -> str | None:
