@@ -94,3 +94,19 @@ def test_sheets_of_which_only_one_has_a_date_above_it_count_all_from_their_first
 
 def test_durations_below_a_date_are_no_times_of_day(tmp_path: Path) -> None:
     assert read(tmp_path, {"data": rows("Datum měření:", DAY, first=0.0)}).recording.clock == "relative"
+
+
+@pytest.mark.parametrize("blank", [True, False])
+def test_blocks_beside_each_other_have_the_dates_of_their_titles(tmp_path: Path, blank: bool) -> None:
+    between = [None] if blank else []
+    one, other = (rows(f"Messung {day}", "") for day in ("16.03.2026", "18.03.2026"))
+    beside = [[*a[:2], *between, *b[:2]] for a, b in zip(one, other, strict=True)]
+    path = workbook(tmp_path / "a.xlsx", {"data": sheet(beside, (CLOCK, PLAIN, *([PLAIN] * blank), CLOCK, PLAIN))})
+    data = load(Reader(), path, Source(timezone="UTC"))
+    assert [t_ns[0] - MIDNIGHT for t_ns in data.t_ns.values()] == [480 * MINUTE_NS, (2 * 1440 + 480) * MINUTE_NS]
+    assert data.recording.start_ns == MIDNIGHT + 480 * MINUTE_NS
+    assert not any("another start" in note for note in data.recording.notes)
+    one[0][0], other[0][0] = "Messung 16.03.2026", "Messung"  # one title alone dates nothing of the other's
+    beside = [[*a[:2], *between, *b[:2]] for a, b in zip(one, other, strict=True)]
+    path = workbook(tmp_path / "b.xlsx", {"data": sheet(beside, (CLOCK, PLAIN, *([PLAIN] * blank), CLOCK, PLAIN))})
+    assert len({int(t_ns[0]) for t_ns in load(Reader(), path, Source(timezone="UTC")).t_ns.values()}) == 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.preamble.begin import declared_start
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.tables.zone_named import named_note
@@ -137,14 +138,29 @@ class Table:
             return found
         zones = [stated_zone(self.layout.names[i] for i in g.time) or self.source.timezone for g in self.layout.groups]
         begin: list[Stamps] = []
-        for was, zone in zip(found, zones, strict=True):
-            times, further = begun(was, Heads(self.head, self.columns, self.repeats), self.source, zone, self.where)
+        for was, zone, above in zip(found, zones, self._above(found, zones), strict=True):
+            times, further = begun(was, Heads(above, self.columns, self.repeats), self.source, zone, self.where)
             if further:  # such rows are empty, as those are that repeat the header
                 self.repeats = gone = self.repeats | frozenset(further)
                 self.columns = [tuple(None if n in gone else c for n, c in enumerate(col)) for col in self.columns]
             begin.append(times)
         self.begun = any(s.absolute and not was.absolute for s, was in zip(begin, found, strict=True))
         return begin
+
+    def _above(self, found: Sequence[Stamps], zones: Sequence[str | None]) -> list[Sequence[Sequence[Any]]]:
+        """The head of each group: what stands above its own columns, where that dates every one of them, as the title
+        of a block does beside others, and nobody declares which counts; else all of it."""
+        whole: list[Sequence[Sequence[Any]]] = [self.head] * len(found)
+        if len(found) < 2 or any(s.absolute for s in found) or declared_start(self.source.table or {}) is not None:
+            return whole
+        firsts = [min((*g.time, *g.columns)) for g in self.layout.groups]
+        ends = [min((f for f in firsts if f > first), default=None) for first in firsts]
+        own = [[row[a:b] for row in self.head] for a, b in zip(firsts, ends, strict=True)]
+        dated = (
+            begun(was, Heads(above, self.columns, self.repeats), self.source, zone, self.where)[0].absolute
+            for was, above, zone in zip(found, own, zones, strict=True)
+        )
+        return list(own) if all(dated) else whole
 
     def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
         """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time
