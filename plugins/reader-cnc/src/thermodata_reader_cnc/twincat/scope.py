@@ -169,6 +169,7 @@ class _Groups:
         self.width = header.width  # of the rows by now: it only shrinks, as groups end
         self.starts = sorted(header.groups)
         self.last: dict[int, tuple[int, list[object]]] = {}
+        self.last_row: list[object] | None = None
         self.reached: int | None = None
 
     def padded(self, data: bytes, line: int, losses: Losses) -> bytes:
@@ -201,6 +202,7 @@ class _Groups:
 
     def blocks(self, rows: NumberRows, losses: Losses) -> Iterator[Block]:
         """A block a group, of the rows of one part."""
+        twice = self._twice(rows)
         for time, channels in self.header.groups.items():
             blank = rows.empty[time]
             there = ~blank
@@ -223,11 +225,20 @@ class _Groups:
                 continue
             names = {c.name: c.column for c in channels}
             block = rows.block(channels[0].stream, t_ns[good], names, everywhere(good))
-            fresh = self._fresh(time, block.t_ns, block.values)
+            fresh = self._fresh(time, block.t_ns, block.values) | twice[good]
             if fresh.any():
                 latest = int(block.t_ns.max())
                 self.reached = latest if self.reached is None else max(latest, self.reached)
                 yield block if fresh.all() else _of(block, fresh)
+
+    def _twice(self, rows: NumberRows) -> Bool1D:
+        """The rows that stand twice, shape (n,): all groups of them repeat, where one that is slow repeats alone."""
+        twice = np.ones(rows.n, bool)
+        before, self.last_row = self.last_row, [column[-1] for column in rows.columns] if rows.n else self.last_row
+        for k, column in enumerate(rows.columns if rows.n else ()):
+            twice[1:] &= _same(column[1:], column[:-1])
+            twice[0] = twice[0] and before is not None and bool(_same(column[:1], np.asarray([before[k]]))[0])
+        return twice
 
     def _fresh(self, time: int, t_ns: Int1D, values: Mapping[str, Array]) -> Bool1D:
         """The rows that are no exact copies of the row before them."""
@@ -236,8 +247,7 @@ class _Groups:
         before = self.last.get(time)
         same[0] = before is not None and before[0] == t_ns[0]
         for k, column in enumerate(values.values()):
-            equal = (column[1:] == column[:-1]) | ((column[1:] != column[1:]) & (column[:-1] != column[:-1]))
-            same[1:] &= equal
+            same[1:] &= _same(column[1:], column[:-1])
             same[0] = same[0] and before is not None and bool(before[1][k] == column[0])
         self.last[time] = int(t_ns[-1]), [column[-1] for column in values.values()]
         result: Bool1D = ~same
@@ -258,6 +268,12 @@ class _Groups:
             gone,
             "the header announces a later end of the export than its rows reach",
         )
+
+
+def _same(one: Array, other: Array) -> Bool1D:
+    """Where two columns hold the same, NaN being NaN."""
+    same: Bool1D = (one == other) | ((one != one) & (other != other))
+    return same
 
 
 def _of(block: Block, rows: Bool1D) -> Block:
