@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from thermodata.calibration.expression.parser import parse
 from thermodata.errors import UsageError
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 
 UNITS = {
     "dY_high": "um",

@@ -15,7 +15,8 @@ from thermodata.effect import all_effects
 from thermodata.effect.describe import describe
 from thermodata.effect.publish import linked
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
-from thermodata.schema.units.quantity import QUANTITIES, QUANTITY_MEANING, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import QUANTITIES, QUANTITY_MEANING
 from thermodata.schema.units.spelling import UNIT_SPELLING, spellings
 from thermodata.schema.words.places import PLACES, is_known
 

@@ -9,7 +9,7 @@ from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import values_of
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 
 
 def _said(header: str, low: float, high: float) -> Guess:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 
 from .conftest import Lab
 from .test_times import mat, stamps

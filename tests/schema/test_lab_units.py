@@ -9,7 +9,8 @@ import pytest
 from thermodata.draft.signals.units import quantities_of
 from thermodata.errors import UsageError
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import is_unit, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import is_unit
 
 _DEG, _RAD = 1 / 360, 1 / (2 * math.pi)  # turns
 

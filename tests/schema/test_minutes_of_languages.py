@@ -6,7 +6,8 @@ import pytest
 
 from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import is_unit, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import is_unit
 
 
 @pytest.mark.parametrize(

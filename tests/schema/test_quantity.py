@@ -7,20 +7,11 @@ from typing import Any
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.schema.units.quantity import (
-    AT_HAND,
-    CANONICAL_UNIT,
-    QUANTITIES,
-    canonical,
-    compound_unit,
-    delta_factor,
-    is_unit,
-    linear_conversion,
-    normal_unit,
-    split_value,
-    value_in,
-)
+from thermodata.schema.units.conversion import delta_factor, linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES, canonical
 from thermodata.schema.units.time_of_parts import time_of_parts
+from thermodata.schema.units.unit import AT_HAND, compound_unit, is_unit, normal_unit
+from thermodata.schema.units.value import split_value, value_in
 
 
 @pytest.mark.parametrize(

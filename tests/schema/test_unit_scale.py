@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.schema.units.quantity import is_unit, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.units.scale import scaled_unit, with_power_of_ten
+from thermodata.schema.units.unit import is_unit
 
 
 @pytest.mark.parametrize(

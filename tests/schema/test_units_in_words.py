@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.schema.units.quantity import is_unit, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import is_unit
 
 
 @pytest.mark.parametrize(

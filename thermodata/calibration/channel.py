@@ -15,19 +15,11 @@ from thermodata.errors import CalibrationError, UsageError
 from thermodata.plugin import Array, Float1D, Scaling
 from thermodata.schema.files.campaign import Channel, Sensor
 from thermodata.schema.flag import Flag
+from thermodata.schema.units.conversion import declared_conversion, delta_factor, linear_conversion
 from thermodata.schema.units.letters import encoding_hint
-from thermodata.schema.units.quantity import (
-    MEASURED,
-    PROBED,
-    STATES,
-    canonical,
-    declared_conversion,
-    delta_factor,
-    is_unit,
-    linear_conversion,
-    normal_unit,
-    split_value,
-)
+from thermodata.schema.units.quantity import MEASURED, PROBED, STATES, canonical
+from thermodata.schema.units.unit import is_unit, normal_unit
+from thermodata.schema.units.value import split_value
 
 _COLDEST_DEGC = -273.15
 TRUE_WORDS = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})

@@ -15,7 +15,8 @@ from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
-from thermodata.schema.units.quantity import linear_conversion, split_value
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.value import split_value
 
 _OUT = int(Flag.OUT_OF_RANGE | Flag.SATURATED)
 BREAK = 10.0  # a pause of so many periods ends a stretch

@@ -6,7 +6,8 @@ from thermodata.calibration.facing import facing_axis, geometric_sign
 from thermodata.calibration.result import CalibrationResult, Check, Sign, check
 from thermodata.errors import CalibrationError, UsageError
 from thermodata.schema.files.campaign import LinearCalibration, ScaleCalibration
-from thermodata.schema.units.quantity import delta_factor, split_value
+from thermodata.schema.units.conversion import delta_factor
+from thermodata.schema.units.value import split_value
 
 SAME_LENGTH = 2.0  # a lever of a gauge may stretch a length by so much, or shrink it
 

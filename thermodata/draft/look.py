@@ -22,7 +22,8 @@ from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
 from thermodata.reader.finding.seen import when
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
-from thermodata.schema.units.quantity import STATES, canonical, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import STATES, canonical
 from thermodata.store.tidy.flags.between import HELD
 from thermodata.store.tidy.flags.readings import reading_with
 

@@ -10,7 +10,7 @@ from thermodata.chart.decimate import MOST_POINTS
 from thermodata.report.charts.figures import in_one_unit, overview_map, part_chart, residual_scale
 from thermodata.report.collected.parts import test_parts
 from thermodata.report.collected.spots import weak_spots_of
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded

@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Effect, Need
-from thermodata.schema.units.quantity import CANONICAL_UNIT, compound_unit, difference_unit, is_unit
+from thermodata.schema.units.quantity import CANONICAL_UNIT
+from thermodata.schema.units.unit import compound_unit, difference_unit, is_unit
 from thermodata.testing.effect_drivers import start, variants
 
 # quantities, and the part of a gain's unit by which it is linear in them

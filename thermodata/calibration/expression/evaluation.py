@@ -29,7 +29,8 @@ from thermodata.calibration.expression.nodes import (
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array
 from thermodata.schema.agreed.comparators import COMPARE, Comparator
-from thermodata.schema.units.quantity import compound_unit, delta_factor, linear_conversion, normal_unit
+from thermodata.schema.units.conversion import delta_factor, linear_conversion
+from thermodata.schema.units.unit import compound_unit, normal_unit
 
 _OFFSET_UNITS = ("degC", "degF")
 

@@ -30,7 +30,8 @@ from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.schema.agreed.comparators import COMPARE, Comparator
-from thermodata.schema.units.quantity import is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"

@@ -15,7 +15,8 @@ from thermodata.calibration.result import Check, check
 from thermodata.calibration.static import ratio_units
 from thermodata.errors import UsageError
 from thermodata.schema.files.campaign import JumpCalibration
-from thermodata.schema.units.quantity import delta_factor, split_value
+from thermodata.schema.units.conversion import delta_factor
+from thermodata.schema.units.value import split_value
 
 DATA_SHEET_PCT = 10.0
 UNCERTAINTY_PCT = 5.0

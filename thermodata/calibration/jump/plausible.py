@@ -8,7 +8,7 @@ from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.result import Check, check
 from thermodata.errors import UsageError
 from thermodata.schema.files.campaign import JumpCalibration
-from thermodata.schema.units.quantity import delta_factor
+from thermodata.schema.units.conversion import delta_factor
 
 # Of probes behind an amplifier in volts: eddy current 5 to 400 um/V, capacitive from 0.5, an LVDT of +-50 mm 5000.
 COARSEST_UM_PER_V = 5000.0

@@ -75,7 +75,7 @@ def _forget_versions(session: Session, versions: Sequence[str]) -> None:
 )
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
-    from thermodata.schema.units.quantity import value_in
+    from thermodata.schema.units.value import value_in
     from thermodata.schema.words.sentences import counted
     from thermodata.store.keep.gc import gc
 

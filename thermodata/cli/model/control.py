@@ -26,7 +26,7 @@ _TARGETS = ("st", "scl", "c", "python", "json", "mat", "yaml")
 
 def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
     """A time as '1s', '500 ms', '10 min'; a bare number is in seconds."""
-    from thermodata.schema.units.quantity import value_in
+    from thermodata.schema.units.value import value_in
 
     return value_in(value, "s")
 

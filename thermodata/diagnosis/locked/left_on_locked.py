@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate
     from thermodata.store import Store
     from thermodata.view.grid.dataset import TestData
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 
 
 def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:

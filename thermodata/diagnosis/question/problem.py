@@ -15,7 +15,7 @@ import numpy as np
 
 from thermodata.modelling.terms.nuisance import WARM, unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 from thermodata.view.grid.dataset import TestData
 
 TARGET_ROWS = 9000

@@ -15,7 +15,8 @@ from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.implied_speed import is_implied
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D, Int1D
-from thermodata.schema.units.quantity import canonical, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import canonical
 from thermodata.schema.words.places import is_spindle
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.tidy.rows.on_change import come_at_no_rate

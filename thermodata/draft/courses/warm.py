@@ -10,7 +10,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.times.clocks import Named
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.words.places import is_spindle
 from thermodata.schema.words.sentences import listed
 

@@ -33,7 +33,8 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.unit_in_name import unit_at_end
 from thermodata.schema.units.letters import encoding_hint, mended
-from thermodata.schema.units.quantity import STATES, is_unit
+from thermodata.schema.units.quantity import STATES
+from thermodata.schema.units.unit import is_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")

@@ -13,7 +13,9 @@ from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import HEAD, OTHERS, unit_of, units_in
-from thermodata.schema.units.quantity import CANONICAL_UNIT, converts, normal_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.quantity import CANONICAL_UNIT
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import with_count
 
 _FILES, _HEADS = 2, 4  # that are shown

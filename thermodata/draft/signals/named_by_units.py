@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from thermodata.plugin import Signal
 from thermodata.reader.text.names.header import looks_like_unit
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 
 LEAST_COLUMNS = 2
 _AGAIN = re.compile(r"#\d+$")  # behind a name that stood there before

@@ -7,10 +7,12 @@ import re
 from thermodata.errors import UsageError
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.unit_in_name import AT_END, unit_at_end
-from thermodata.schema.units.quantity import CANONICAL_UNIT, STATES, is_unit, linear_conversion, normal_unit
-from thermodata.schema.units.quantity import converts as converts_to
+from thermodata.schema.units.conversion import converts as converts_to
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, STATES
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.schema.units.signs import bare_unit
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),

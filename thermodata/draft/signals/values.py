@@ -13,7 +13,7 @@ from thermodata.calibration.quality.value import run_stats
 from thermodata.draft.signals.numerals import bare_word, numerals_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 
 _FEW = 8
 _LEAST_COUNTED = 10

@@ -15,7 +15,8 @@ from thermodata.errors import UsageError
 from thermodata.reader.times.time_units import check_unit
 from thermodata.schema.files.load import parse_campaign
 from thermodata.schema.strict.lines import Document, Place, parse_document
-from thermodata.schema.units.quantity import CANONICAL_UNIT, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 
 
 def filled_in(text: str, given: Mapping[str, str]) -> str:

@@ -12,7 +12,8 @@ from thermodata.draft.writing.asked import answers, asked_in
 from thermodata.draft.writing.unread import WHAT, unread
 from thermodata.schema.files.campaign import Role, TestKind
 from thermodata.schema.strict.lines import Document, Place, parse_document
-from thermodata.schema.units.quantity import CANONICAL_UNIT, converts
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 from thermodata.schema.words.places import PLACES
 
 Kind = Literal[

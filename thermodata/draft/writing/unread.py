@@ -7,7 +7,8 @@ import re
 from collections.abc import Sequence
 
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES
 
 WHAT: tuple[str, ...] = tuple(f"{q} [{CANONICAL_UNIT[q]}]" for q in QUANTITIES if q != "label")
 _LINE = re.compile(r"^  # (?P<name>[^:#]+): (?P<body>\{.*\bquantity: \?.*\})\s+# \? (?P<hint>.*)$")

@@ -18,7 +18,7 @@ from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Values
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.modelling.terms.parameters import gain_unit
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 from thermodata.view.grid.dataset import ChannelInfo
 
 

@@ -11,7 +11,7 @@ from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.schema.answers.result import SAMPLE, Parameter
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 
 Interval = tuple[float | None, float | None]
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check

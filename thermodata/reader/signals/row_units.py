@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D
-from thermodata.schema.units.quantity import converts, is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.conversion import converts, linear_conversion
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 UNIT_OF = "unit_of"  # property of a signal: the one whose unit it says
 

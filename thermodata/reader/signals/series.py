@@ -14,7 +14,7 @@ from thermodata.plugin import Array, Block, Int1D, Signal
 from thermodata.reader.signals.interleaved import Parting, series_columns, words_of
 from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
 from thermodata.reader.signals.unit_words import holds_units
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import counted, with_dots
 
 SERIES = "series"  # the property of a signal that says which it is of

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from thermodata.reader.signals.header_words import UNIT_SHORT, UNIT_WORDS
 from thermodata.reader.signals.interleaved import bare_header
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 
 _DEGREES = ("C", "F", "K")
 # units that are words of a state, a place or a statistic as well, and marks of nothing

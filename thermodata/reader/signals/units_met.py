@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from thermodata.plugin import Block, Signal
 from thermodata.reader.signals.interleaved import words_of
 from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn, converts_here
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 
 
 @dataclass(slots=True)

@@ -9,7 +9,9 @@ from thermodata.schema.files.campaign import Campaign, Channel, Sensor
 from thermodata.schema.strict.declared import Value
 from thermodata.schema.strict.lines import Document, Place
 from thermodata.schema.strict.refer import must_be
-from thermodata.schema.units.quantity import canonical, converts, split_value, value_in
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.quantity import canonical
+from thermodata.schema.units.value import split_value, value_in
 
 
 def check_channels(campaign: Campaign, document: Document) -> None:

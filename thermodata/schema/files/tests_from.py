@@ -16,7 +16,7 @@ from thermodata.schema.files.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.strict.explain import validate
 from thermodata.schema.strict.lines import Document, Place
 from thermodata.schema.strict.refer import inside
-from thermodata.schema.units.quantity import split_value
+from thermodata.schema.units.value import split_value
 
 _FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)\}")
 

@@ -10,7 +10,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, JsonValue, ValidationInfo, model_validator
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.units.quantity import converts, split_value, value_in
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.value import split_value, value_in
 from thermodata.schema.words.slips import slip_of
 
 Value = str | float | int

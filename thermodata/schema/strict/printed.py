@@ -15,7 +15,7 @@ from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 
 from thermodata.errors import UsageError
 from thermodata.schema.strict.declared import WrongValueError
-from thermodata.schema.units.quantity import split_value
+from thermodata.schema.units.value import split_value
 
 
 class Printed(float):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 
 _READ_AS = ("cp1250", "cp1252")  # what a text that is no UTF-8 is read as
 _SIGNS = frozenset("°µμΩ²³·")

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from thermodata.schema.units.quantity import CANONICAL_UNIT, converts, is_unit, normal_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 from thermodata.schema.units.scale import counted_unit
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 _LENGTHS = ("displacement", "position")
 _OF_THE_UNIT = {  # in a unit as it is spelled, where others convert to it: a share, an angle, a state are numbers

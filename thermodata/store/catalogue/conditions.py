@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.errors import UsageError
-from thermodata.schema.units.quantity import linear_conversion, normal_unit, split_value
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import normal_unit
+from thermodata.schema.units.value import split_value
 
 # tried in this order: what a condition of a thermal test is usually given in
 _TARGETS = ("rpm", "m/min", "degC", "mm", "kW", "s", "bar", "l/min", "A", "N*m", "V", "percent", "deg", "kg", "N")

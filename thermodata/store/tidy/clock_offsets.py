@@ -14,7 +14,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, SpecError, ThermodataError, unknown_name
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.times.zone import local_to_utc_ns
-from thermodata.schema.units.quantity import value_in
+from thermodata.schema.units.value import value_in
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy.clock.second_pass import choose_passes
 from thermodata.store.tidy.clock.set_late import tell_clocks_set_late

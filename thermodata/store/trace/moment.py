@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
-from thermodata.schema.units.quantity import value_in
+from thermodata.schema.units.value import value_in
 
 if TYPE_CHECKING:
     from thermodata.store import Store

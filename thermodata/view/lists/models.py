@@ -11,7 +11,7 @@ from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 from thermodata.schema.agreed.effect_ids import ids_of
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 from thermodata.store.base.connection import fetch
 
 if TYPE_CHECKING:

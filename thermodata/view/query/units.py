@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from thermodata.schema.units.quantity import difference_unit
+from thermodata.schema.units.unit import difference_unit
 
 if TYPE_CHECKING:
     import duckdb

@@ -6,7 +6,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import Model
-from thermodata.schema.units.quantity import value_in
+from thermodata.schema.units.value import value_in
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.described import described
 from thermodata.virtual.gantry.plan import AXES, STEP_S

@@ -12,7 +12,7 @@ from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.words.naming import channel_name
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D
-from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
 
 _SLOWEST_S = 5.0  # between samples of a movement
 _FEW = 8  # values are places where the tool stands

@@ -11,7 +11,7 @@ from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.values import least_reading
 from thermodata.plugin import Signal
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 
 _FEWEST_OTHERS = 3
 _ALIKE_K = 2.0  # so near are all parts of a machine to each other before it works

@@ -26,7 +26,7 @@ from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.schema.agreed.exported import UNSIGNED, is_own, is_own_export, own_channel, own_sign
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import counted
 
 _MOST_SIGNALS, _MOST_LINES = 2000, 2

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.draft.folder.into_sources.one_signal import OneSignal
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import with_count
 
 _LOW = frozenset(["min", "minimum", "minimal", "minimalwert", "minwert", "tmn"])

@@ -18,7 +18,7 @@ from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
 from thermodata.schema.agreed.exported import is_own_about, said_key
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 from thermodata.schema.words.places import is_known
 from thermodata.schema.words.sentences import with_count
 

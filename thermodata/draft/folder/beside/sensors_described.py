@@ -17,7 +17,7 @@ from thermodata.draft.words.naming import words
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 from thermodata.schema.strict.lines import parse_document
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 
 _LARGEST, _MOST_ROWS, _DEEPEST, _LONGEST = 200_000, 400, 4, 200
 _YAML, _TABLES = (".yaml", ".yml"), (".csv", ".tsv", ".txt", ".xlsx", ".xlsm")

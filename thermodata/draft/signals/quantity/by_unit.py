@@ -12,9 +12,9 @@ from thermodata.draft.signals.values import Values
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.vocabulary import places_in
-from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.units.signs import bare_unit
 from thermodata.schema.units.spelling import is_of_humidity
+from thermodata.schema.units.unit import normal_unit
 
 _DELTA = re.compile(r"(?:d|δ) ?t(?:emp)?\b")  # 'dT_front', which begins at 0
 _NO_HALL_C = 10.0  # colder than any machine that stands in a hall

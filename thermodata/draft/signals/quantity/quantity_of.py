@@ -15,7 +15,7 @@ from thermodata.draft.signals.values import Values
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
 from thermodata.reader.times.time_units import found_epoch
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 

@@ -10,8 +10,8 @@ from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import is_unit, normal_unit
 from thermodata.schema.units.scale import scaled_unit
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 _AT_END = re.compile(r"[\[(（［](?P<said>[^\[\]()（）［］]+)[\])）］]$")
 # in capitals, or in any letters, these say where or how as well: high pressure, a controlled value, an inlet

@@ -9,7 +9,7 @@ from dataclasses import replace
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.values import Values, least_reading
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.places import AROUND
 
 _NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit

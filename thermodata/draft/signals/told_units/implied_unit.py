@@ -7,7 +7,8 @@ from dataclasses import replace
 from thermodata.draft.signals.quantity.guessed import Guess, range_text
 from thermodata.draft.signals.told_units.doubted_units import MOST_OF_ONE, SHARED, hottest_c, is_fired
 from thermodata.draft.signals.values import Values
-from thermodata.schema.units.quantity import STATES, normal_unit
+from thermodata.schema.units.quantity import STATES
+from thermodata.schema.units.unit import normal_unit
 
 _IMPLIED = {
     "temperature": "degC",

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity.guessed import range_text
 from thermodata.draft.signals.values import Values
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 
 # units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
 # but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor

@@ -9,7 +9,8 @@ from thermodata.calibration.expression.parser import Expression, parse
 from thermodata.effect.binding import ANY
 from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect, Need
-from thermodata.schema.units.quantity import CANONICAL_UNIT, canonical, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, canonical
 from thermodata.view.grid.dataset import ChannelInfo
 
 _ALIKE = (frozenset({"temperature", "temperature_difference"}),)  # a driver counts from its start

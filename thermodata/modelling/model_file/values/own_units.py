@@ -6,7 +6,8 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect
 from thermodata.schema.files.model import EffectSpec
 from thermodata.schema.strict.printed import WithUnit
-from thermodata.schema.units.quantity import difference_unit, value_in
+from thermodata.schema.units.unit import difference_unit
+from thermodata.schema.units.value import value_in
 
 
 def in_own_units(

@@ -15,7 +15,7 @@ from thermodata.modelling.terms.bound import group_of
 from thermodata.plugin import Effect, Param
 from thermodata.schema.files.model import EffectSpec
 from thermodata.schema.strict.printed import Printed
-from thermodata.schema.units.quantity import converts
+from thermodata.schema.units.conversion import converts
 from thermodata.view.grid.dataset import Dataset, TestData
 
 _NAME = re.compile(r"[^\W\d]\w*")

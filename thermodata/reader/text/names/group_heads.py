@@ -9,7 +9,8 @@ from thermodata.reader.text.cells.cell import is_number, is_stamp
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.time_header import says_time
 from thermodata.reader.text.names.units_row import STATISTIC, mostly_units
-from thermodata.schema.units.quantity import converts, is_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.unit import is_unit
 
 # what loggers write before a row that describes the columns
 OF_TEXTS = re.compile(

@@ -13,7 +13,7 @@ from thermodata.reader.signals.row_units import UnitColumn, converts_here, in_un
 from thermodata.reader.signals.unit_words import holds_units, may_be_a_machine
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.flag import Flag
-from thermodata.schema.units.quantity import is_unit, normal_unit
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 _SHOWN = 4
 _NOT_MEASURED = np.uint16(Flag.NOT_MEASURING)

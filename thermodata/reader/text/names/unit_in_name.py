@@ -7,8 +7,9 @@ import re
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.text.names.header import split_unit
-from thermodata.schema.units.quantity import delta_factor, is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.conversion import delta_factor, linear_conversion
 from thermodata.schema.units.signs import bare_unit
+from thermodata.schema.units.unit import is_unit, normal_unit
 
 # After a separator: unmistakable ones only.
 AT_END = re.compile(

@@ -116,7 +116,7 @@ def period_s(period: Any, where: str) -> float:
     if period == UNKNOWN:
         raise unanswered("time.period", "the time from row to row: 10 s, 1 min", where)
     if isinstance(period, str):
-        from thermodata.schema.units.quantity import value_in
+        from thermodata.schema.units.value import value_in
 
         period = value_in(period, "s")
     return float(period)

@@ -9,7 +9,8 @@ from collections.abc import Mapping, Sequence
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, spellings
-from thermodata.schema.units.quantity import converts, is_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.unit import is_unit
 
 SCALES_BELOW = 2  # rows of scales below the names, of which no time can be read
 _NUMBER = r"(?P<number>\d+(?:[.,]\d+)?(?:e[-+]?\d+)?)"

@@ -12,8 +12,8 @@ from typing import Literal
 from thermodata.plugin import Signal
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
-from thermodata.schema.units.quantity import is_unit
 from thermodata.schema.units.scale import with_power_of_ten
+from thermodata.schema.units.unit import is_unit
 
 _TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
 _SCALED_UNIT = re.compile(r"(?i)scal(?:ed?|ing)[ _-]?(?:units?|einheit)")

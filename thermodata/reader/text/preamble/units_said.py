@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.reader.signals.unit_words import is_surely_unit, may_be_a_machine
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.preamble.scale_words import spellings
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 
 HEAD = "head"  # property of a signal: what the head of its file says of units
 _UNITS = re.compile(

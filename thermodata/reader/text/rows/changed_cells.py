@@ -23,7 +23,7 @@ from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.no_value import EMPTY
 from thermodata.reader.text.names.called_column import by_name, by_name_or_place
 from thermodata.reader.text.names.header import split_unit
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import with_count
 
 KEY = "stands"  # of a table's layout

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Float1D
-from thermodata.schema.units.quantity import canonical, linear_conversion
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.plan.plan import Bound
 
 

@@ -11,7 +11,8 @@ from thermodata.plugin import Signal
 from thermodata.reader.finding.match import NoSignalError
 from thermodata.reader.text.names.unit_in_name import other_unit
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.units.quantity import MEASURED, PROBED, STATES, converts
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.quantity import MEASURED, PROBED, STATES
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import schedule
 from thermodata.store.tidy.rows.in_parts import Found, InPart, find_in_parts

@@ -9,7 +9,9 @@ import numpy as np
 from thermodata.errors import SpecError
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.files.campaign import Channel, Test
-from thermodata.schema.units.quantity import canonical, linear_conversion, value_in
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import canonical
+from thermodata.schema.units.value import value_in
 
 GRID_S = 60.0
 

@@ -15,8 +15,10 @@ from thermodata.plugin import Array, Float1D, Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.stated_scale import Stated, line_that_applies, stated_scales
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, ScaleCalibration
-from thermodata.schema.units.quantity import STATES, declared_conversion, split_value
+from thermodata.schema.units.conversion import declared_conversion
+from thermodata.schema.units.quantity import STATES
 from thermodata.schema.units.scale import scaled_unit
+from thermodata.schema.units.value import split_value
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan.plan import Bound, TestPlan

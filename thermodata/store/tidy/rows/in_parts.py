@@ -13,7 +13,8 @@ from thermodata.plugin import Array, Signal
 from thermodata.reader.finding.match import match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.files.campaign import Channel
-from thermodata.schema.units.quantity import delta_factor, is_unit, linear_conversion
+from thermodata.schema.units.conversion import delta_factor, linear_conversion
+from thermodata.schema.units.unit import is_unit
 from thermodata.store.raw.raw_stream import RawStream
 
 

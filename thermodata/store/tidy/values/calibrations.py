@@ -10,7 +10,8 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
-from thermodata.schema.units.quantity import PROBED, converts, linear_conversion
+from thermodata.schema.units.conversion import converts, linear_conversion
+from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, build

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.units.quantity import canonical, linear_conversion, split_value
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.quantity import canonical
+from thermodata.schema.units.value import split_value
 from thermodata.store.tidy.plan.plan import Bound
 from thermodata.store.tidy.values.series import TestSeries
 

@@ -11,7 +11,8 @@ from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
-from thermodata.schema.units.quantity import MEASURED, difference_unit
+from thermodata.schema.units.quantity import MEASURED
+from thermodata.schema.units.unit import difference_unit
 from thermodata.schema.words.sentences import counted
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.window import Channel, Window

@@ -10,7 +10,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Float1D, Source
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.time_units import SECONDS, check_unit
-from thermodata.schema.units.quantity import value_in
+from thermodata.schema.units.value import value_in
 
 
 @dataclass(frozen=True)

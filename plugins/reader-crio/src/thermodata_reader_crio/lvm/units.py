@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from thermodata.reader.signals.row_units import converts_here
 from thermodata.reader.text.names.header import split_unit
-from thermodata.schema.units.quantity import linear_conversion, normal_unit
+from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.unit import normal_unit
 from thermodata_reader_crio.lvm.header import Packet
 
 

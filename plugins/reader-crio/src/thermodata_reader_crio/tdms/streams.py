@@ -233,6 +233,6 @@ def _path_above(members: list[Channel]) -> str:
 def _seconds(step: Any) -> float | None:
     if step is None:
         return None
-    from thermodata.schema.units.quantity import value_in
+    from thermodata.schema.units.value import value_in
 
     return value_in(step, "s")

@@ -9,7 +9,7 @@ from typing import Any
 
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.scale_words import spellings, stated_of
-from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.unit import normal_unit
 
 _UNIT = ("unit", "units", "einheit")
 _OF_ARROW = ("PARQUET:", "ARROW:")

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 from thermodata.plugin import Signal
 from thermodata.reader.text.preamble.units_said import HEAD, units_in
-from thermodata.schema.units.quantity import converts, normal_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.told.losses import Losses, loss_row

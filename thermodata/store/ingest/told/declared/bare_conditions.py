@@ -8,7 +8,8 @@ from typing import Any
 from thermodata.errors import ThermodataError
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.strict.lines import read_document
-from thermodata.schema.units.quantity import CANONICAL_UNIT, split_value
+from thermodata.schema.units.quantity import CANONICAL_UNIT
+from thermodata.schema.units.value import split_value
 from thermodata.store.catalogue.conditions import plain_value
 
 # what a condition is called -> the unit in which `plain_value` keeps what has one; a count (`nr: 3`) has none

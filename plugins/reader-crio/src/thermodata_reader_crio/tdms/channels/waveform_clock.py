@@ -13,7 +13,8 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.times.time_units import SECONDS
-from thermodata.schema.units.quantity import converts, is_unit
+from thermodata.schema.units.conversion import converts
+from thermodata.schema.units.unit import is_unit
 from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
 from thermodata_reader_crio.tdms.segments.metadata import Timestamp
 

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.scale_words import stated_of, states_scale
-from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.units.unit import is_unit
 from thermodata_reader_table.mat.planned import names as say
 from thermodata_reader_table.mat.planned.signal_structs import one_number, one_text
 from thermodata_reader_table.mat.planned.signal_structs import texts as lines_of
