@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.cells.column import values_of
 from thermodata.reader.text.cells.number import (
     EXACT,
     is_empty,
@@ -16,7 +17,6 @@ from thermodata.reader.text.cells.number import (
     to_bool,
     to_float,
     to_int,
-    values_of,
     why_none,
 )
 from thermodata.reader.text.cells.quotes import clean

@@ -1,5 +1,9 @@
 """What loggers write into a cell where they have no value, in lower case: nothing, or a reading beyond their range."""
 
+from __future__ import annotations
+
+from functools import lru_cache
+
 # what a display shows for a sensor that is not there: '-.-', '--.--', '-,--'
 _DASHES = tuple("-" * n + mark + "-" * k for n in range(1, 5) for mark in ".," for k in range(1, 5))
 EMPTY = frozenset(
@@ -35,3 +39,11 @@ OVERLOAD = frozenset(
         ),
     )
 )
+
+
+@lru_cache(maxsize=1)
+def null_words() -> tuple[str, ...]:
+    """`EMPTY` as a parser takes it that minds the case: as it stands, in capitals and as a title."""
+    return tuple(
+        sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title, str.capitalize)} | {"NaN"})
+    )

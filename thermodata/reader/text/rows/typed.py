@@ -14,8 +14,11 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells import arrow
+from thermodata.reader.text.cells.arrow import text_array
+from thermodata.reader.text.cells.column import Values
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import EXACT, Values, null_words, text_array
+from thermodata.reader.text.cells.no_value import null_words
+from thermodata.reader.text.cells.number import EXACT
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import count
 from thermodata.reader.text.rows.grid import TIME, BadLine, Grid, Rows

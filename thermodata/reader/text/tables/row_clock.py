@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.arrow import values
-from thermodata.reader.text.cells.number import Values
+from thermodata.reader.text.cells.column import Values
 from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows

@@ -15,10 +15,10 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.cells.arrow import text_array
 from thermodata.reader.text.cells.cell import Cell, is_clocked, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import HALF
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.number import text_array
 from thermodata.reader.text.cells.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.times import timestamp

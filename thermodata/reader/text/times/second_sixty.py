@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D, Loss
-from thermodata.reader.text.cells.number import text_array
+from thermodata.reader.text.cells.arrow import text_array
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.schema.words.sentences import counted
 
