@@ -7,12 +7,12 @@ from mutant import Mutant
 # the tests that stand beside a module
 BESIDE = {
     "preamble/begin.py": ("head_start",),
-    "cells/clock_pattern.py": ("clock_pattern",),
+    "cells/time_forms/clock_pattern.py": ("clock_pattern",),
     "times/clock_letters.py": ("time_formats",),
     "tables/columns.py": ("columns",),
     "times/days.py": ("days",),
     "delimited.py": ("delimited",),
-    "cells/delimiter.py": ("delimiter",),
+    "cells/lines/delimiter.py": ("delimiter",),
     "names/described.py": ("described",),
     "rows/footer.py": ("footer",),
     "file/foreign_texts.py": ("foreign_texts",),
@@ -28,9 +28,9 @@ BESIDE = {
     "times/local_clock.py": ("local_clock",),
     "file/locate.py": ("locate",),
     "file/losses.py": ("losses", "delimited"),
-    "cells/number.py": ("number",),
-    "cells/column.py": ("number",),
-    "cells/quotes.py": ("number", "quotes"),
+    "cells/values/number.py": ("number",),
+    "cells/values/column.py": ("number",),
+    "cells/values/quotes.py": ("number", "quotes"),
     "clocks/odd_clocks.py": ("clock_pattern",),
     "rows/quality_columns.py": ("quality_columns",),
     "rows/odd_rows.py": ("three_ways", "rows_width"),
@@ -39,9 +39,9 @@ BESIDE = {
     "tables/group_rows.py": ("delimited",),
     "tables/table_rows.py": ("delimited",),
     "times/time_formats.py": ("time_formats",),
-    "cells/time_pattern.py": ("timestamp", "time_formats"),
+    "cells/time_forms/time_pattern.py": ("timestamp", "time_formats"),
     "times/timestamp.py": ("timestamp",),
-    "cells/zone_words.py": ("timestamp",),
+    "cells/time_forms/zone_words.py": ("timestamp",),
 }
 
 
@@ -53,45 +53,48 @@ def text(file: str, old: str, new: str, why: str, *more: str) -> Mutant:
 
 MUTANTS = [
     # ---- numbers
-    text("cells/number.py", "EXACT = 2**53", "EXACT = 2**54", "integers are rounded"),
-    text("cells/number.py", "abs(value) >= EXACT and", "abs(value) > EXACT and", "2**53 + 1 is read as 2**53"),
-    text("cells/number.py", "math.isinf(value) or (", "(", "1e999 is infinite"),
-    text("cells/number.py", "(declared and _ONE_GROUP", "(_ONE_GROUP", "1.500 is 1500 though nothing proves it"),
+    text("cells/values/number.py", "EXACT = 2**53", "EXACT = 2**54", "integers are rounded"),
+    text("cells/values/number.py", "abs(value) >= EXACT and", "abs(value) > EXACT and", "2**53 + 1 is read as 2**53"),
+    text("cells/values/number.py", "math.isinf(value) or (", "(", "1e999 is infinite"),
+    text("cells/values/number.py", "(declared and _ONE_GROUP", "(_ONE_GROUP", "1.500 is 1500 though nothing proves it"),
     text(
-        "cells/number.py", "or (declared and _ONE_GROUP[decimal].fullmatch(text))", "", "a declared mark tells nothing"
+        "cells/values/number.py",
+        "or (declared and _ONE_GROUP[decimal].fullmatch(text))",
+        "",
+        "a declared mark tells nothing",
     ),
     text(
-        "cells/number.py",
+        "cells/values/number.py",
         r"""(?:\.\d{3})+,\d+|(?:\.\d{3}){2,})", re.ASCII)""",
         r"""(?:\.\d{3})+,\d+)", re.ASCII)""",
         "1.234.567 is lost",
     ),
-    text("cells/number.py", '[1-9]\\d{0,2},\\d{3}"', '\\d{1,3},\\d{3}"', "0,500 is five hundred"),
+    text("cells/values/number.py", '[1-9]\\d{0,2},\\d{3}"', '\\d{1,3},\\d{3}"', "0,500 is five hundred"),
     text(
-        "cells/column.py",
+        "cells/values/column.py",
         "low in EMPTY, low in OVERLOAD",
         "low in EMPTY or low in OVERLOAD, False",
         "overload is nothing",
     ),
-    text("cells/column.py", "if wrong and not over[i]:", "if wrong:", "overload is a loss"),
+    text("cells/values/column.py", "if wrong and not over[i]:", "if wrong:", "overload is a loss"),
     text(
-        "cells/number.py",
+        "cells/values/number.py",
         "limits.min <= whole <= limits.max",
         "-(2**63) <= whole <= limits.max",
         "unsigned counters below 0",
     ),
-    text("cells/number.py", "and abs(value) <= EXACT else", "else", "1e300 is an integer"),
+    text("cells/values/number.py", "and abs(value) <= EXACT else", "else", "1e300 is an integer"),
     text(
-        "cells/column.py",
+        "cells/values/column.py",
         "if not (np.abs(values) < EXACT).all():",
         "if not (np.abs(values) <= 2 * EXACT).all():",
         "Arrow rounds",
     ),
-    text("cells/column.py", r"-?\d{{1,15}}(?:", r"-?\d{{1,16}}(?:", "Arrow rounds integers of 16 digits"),
-    text("cells/quotes.py", " or '\"' * (text.count('\"') % 2)", "", "a quote alone is an empty cell"),
-    text("cells/number.py", "if points and commas:", "if False:", "files of two decimal marks are read by one"),
+    text("cells/values/column.py", r"-?\d{{1,15}}(?:", r"-?\d{{1,16}}(?:", "Arrow rounds integers of 16 digits"),
+    text("cells/values/quotes.py", " or '\"' * (text.count('\"') % 2)", "", "a quote alone is an empty cell"),
+    text("cells/values/number.py", "if points and commas:", "if False:", "files of two decimal marks are read by one"),
     text(
-        "cells/column.py",
+        "cells/values/column.py",
         "known[cell] = (nothing if value is None else value, value is None, beyond,",
         "known[cell] = (nothing if value is None else value, gone, beyond,",
         "a lost integer is 0",
@@ -104,13 +107,20 @@ MUTANTS = [
         'fields["y"] <= CENTURY',
         "a column has another century than its cells",
     ),
-    text("cells/clock_pattern.py", "(0 if native else 1) <= hour <= 12", "0 <= hour <= 23", "13 PM is a time"),
-    text("cells/clock_pattern.py", 'half[0] in "pP"', "False", "afternoons are mornings"),
-    text("cells/zone_words.py", '(-1 if rest[0] == "-" else 1)', '(1 if rest[0] == "-" else -1)', "zones are turned"),
+    text(
+        "cells/time_forms/clock_pattern.py", "(0 if native else 1) <= hour <= 12", "0 <= hour <= 23", "13 PM is a time"
+    ),
+    text("cells/time_forms/clock_pattern.py", 'half[0] in "pP"', "False", "afternoons are mornings"),
+    text(
+        "cells/time_forms/zone_words.py",
+        '(-1 if rest[0] == "-" else 1)',
+        '(1 if rest[0] == "-" else -1)',
+        "zones are turned",
+    ),
     text(
         "times/timestamp.py", "total -= offset_ns(groups", "total += offset_ns(groups", "zones are turned, in columns"
     ),
-    text("cells/zone_words.py", "int(minutes or 0) * 60)", "0)", "zones of half hours"),
+    text("cells/time_forms/zone_words.py", "int(minutes or 0) * 60)", "0)", "zones of half hours"),
     text("times/timestamp.py", '{"f": 9, "of": 6}[name]', '{"f": 6, "of": 6}[name]', "fractions are a thousandth"),
     text(
         "times/timestamp.py", 'int(g["f"].ljust(9, "0"))', 'int(g["f"].rjust(9, "0"))', "fractions without their zeros"
@@ -134,7 +144,12 @@ MUTANTS = [
         "what parts a time may be anything",
     ),
     text("times/timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
-    text("cells/time_pattern.py", "(ZONE if zoned else", '(f"{ZONE}?" if zoned else', "local times among those of UTC"),
+    text(
+        "cells/time_forms/time_pattern.py",
+        "(ZONE if zoned else",
+        '(f"{ZONE}?" if zoned else',
+        "local times among those of UTC",
+    ),
     # ---- which letters a byte stands for
     text(
         "file/letters.py",
@@ -212,8 +227,8 @@ MUTANTS = [
         "a new date keeps the midnights before it",
     ),
     text("times/days.py", "2) | paused)", "2))", "of a session that begins later in the day no midnight is counted"),
-    text("cells/clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
-    text("cells/clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
+    text("cells/time_forms/clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
+    text("cells/time_forms/clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
     text("clocks/odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),
     text(
         "clocks/odd_clocks.py", "if _is_shaped(i, seen.rows)", "if True", "the number of a part is offered as the time"
@@ -258,10 +273,12 @@ MUTANTS = [
     text("tables/columns.py", "0.02 * len(full)", "0.2 * len(full)", "comments are numbers"),
     text("tables/columns.py", "EXACT < most < 2**63", "EXACT < most", "integers that no int64 holds"),
     text("tables/columns.py", "if all(_GROUPED.fullmatch(c) for c in commas):", "if False:", "thousands are fractions"),
-    text("cells/delimiter.py", "share >= 0.5", "share >= 0.1", "prose is a table"),
-    text("cells/delimiter.py", "share > best[0] + 0.2", "share > best[0]", "a decimal comma delimits"),
-    text("cells/delimiter.py", "body = body[len(body) // 3 :]", "body = body[:]", "a preamble tells the delimiter"),
-    text("cells/delimiter.py", "or line.count('\"') % 2", "", "a quote left open swallows delimiters"),
+    text("cells/lines/delimiter.py", "share >= 0.5", "share >= 0.1", "prose is a table"),
+    text("cells/lines/delimiter.py", "share > best[0] + 0.2", "share > best[0]", "a decimal comma delimits"),
+    text(
+        "cells/lines/delimiter.py", "body = body[len(body) // 3 :]", "body = body[:]", "a preamble tells the delimiter"
+    ),
+    text("cells/lines/delimiter.py", "or line.count('\"') % 2", "", "a quote left open swallows delimiters"),
     text("page/first_data.py", " and following[0] not in body[:i]", "", "a row above a repeated header is lost"),
     text("tables/group_rows.py", "rows.line[good] + 1)\n", "rows.line[good])\n", "a trace shows the line above"),
     text("tables/group_rows.py", "cells.over * _OVER if cells.over.any() else None", "None", "overload is not flagged"),

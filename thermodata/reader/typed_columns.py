@@ -13,7 +13,7 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.reader.signals.header_words import UNIT_SHORT, UNIT_WORDS
 from thermodata.reader.signals.interleaved import bare_header, words_of
 from thermodata.reader.signals.row_units import UnitColumn
-from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.cells.values.status import declared_zero
 from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing

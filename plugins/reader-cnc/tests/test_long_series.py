@@ -12,7 +12,7 @@ from thermodata_reader_cnc.opcua.row_units import number_and_unit
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.status import BAD
+from thermodata.reader.text.cells.values.status import BAD
 from thermodata.testing.reader import load
 from thermodata.testing.reader.case import Data
 

@@ -10,8 +10,8 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.calendar_words import is_worded_date
-from thermodata.reader.text.cells.time_pattern import declared_format
+from thermodata.reader.text.cells.time_forms.calendar_words import is_worded_date
+from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.timestamp import parse_one
 from thermodata.testing.reader import load

@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.cells.time_pattern import declared_format
+from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.local_clock import DayCount

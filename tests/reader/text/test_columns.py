@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cells.number import EXACT
+from thermodata.reader.text.cells.values.number import EXACT
 from thermodata.reader.text.tables.columns import dtype_of, find_decimal
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.cells.delimiter import declared, fields, find_delimiter
+from thermodata.reader.text.cells.lines.delimiter import declared, fields, find_delimiter
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from thermodata.draft.make import draft_files
 from thermodata.errors import QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.number import is_empty
+from thermodata.reader.text.cells.values.number import is_empty
 from thermodata.reader.text.clocks.time_questions import size_of_clock
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.times.time_units import EPOCHS, to_ns

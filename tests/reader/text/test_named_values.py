@@ -12,7 +12,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.cells.named_values import in_columns, named_values
+from thermodata.reader.text.cells.lines.named_values import in_columns, named_values
 
 START = datetime(2026, 3, 2, 8)
 N = 60

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.column import values_of
-from thermodata.reader.text.cells.number import (
+from thermodata.reader.text.cells.values.column import values_of
+from thermodata.reader.text.cells.values.number import (
     EXACT,
     is_empty,
     is_number,
@@ -19,7 +19,7 @@ from thermodata.reader.text.cells.number import (
     to_int,
     why_none,
 )
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 
 
 @pytest.mark.parametrize(
@@ -215,7 +215,7 @@ def test_what_counts_as_a_number_for_a_layout() -> None:
 
 
 def test_both_marks_in_a_file_are_refused() -> None:
-    from thermodata.reader.text.cells.number import decimal_mark
+    from thermodata.reader.text.cells.values.number import decimal_mark
 
     assert decimal_mark(["1", "2"]) is None
     assert decimal_mark(["1.5", "2"]) == "."

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.errors import QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.time_pattern import declared_format
+from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
 from thermodata.reader.text.page.first_data import is_data
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.times import timestamp

@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
+from thermodata.reader.text.cells.values.status import BAD, declared_zero, tells_quality, zero_is_good
 from thermodata.reader.text.rows.qualities import find_qualities
 from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, states, worded
 

@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.plugin import Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 
 TAG = 'ns=3;s="DB"."T01"'
 

@@ -11,7 +11,7 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.stamped_lines import stamped_by, with_stamp
+from thermodata.reader.text.cells.lines.stamped_lines import stamped_by, with_stamp
 from thermodata.testing.reader import Data, load
 
 NS = 1_000_000_000

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from thermodata.reader.text.cells.arrow import text_array
-from thermodata.reader.text.cells.column import values_of
+from thermodata.reader.text.cells.values.arrow import text_array
+from thermodata.reader.text.cells.values.column import values_of
 
 
 @pytest.mark.parametrize("cells", [[], [""], ["1", "", "20.5"], ["µm", "°C", ""]])
@@ -29,7 +29,7 @@ def test_numbers_that_are_all_plain_and_those_that_are_not() -> None:
 def test_plain_numbers_need_no_pandas() -> None:
     code = """if True:
         import sys
-        from thermodata.reader.text.cells.column import values_of
+        from thermodata.reader.text.cells.values.column import values_of
         values_of(["1", "2.5", "1e-3"], "float64")
         sys.exit("pandas" in sys.modules)"""
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

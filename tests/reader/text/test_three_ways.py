@@ -11,8 +11,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from thermodata.reader.text.cells.number import to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import to_float
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.rows.grid import TIME, Grid, Rows
 from thermodata.reader.text.rows.odd_rows import line_by_line
 from thermodata.reader.text.rows.typed import _as_text, _typed, parse

@@ -7,7 +7,7 @@ import pytest
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import TIME_WORD
-from thermodata.reader.text.cells.time_pattern import DATE, DATETIME, TIME_OF_DAY, declared_format
+from thermodata.reader.text.cells.time_forms.time_pattern import DATE, DATETIME, TIME_OF_DAY, declared_format
 from thermodata.reader.text.times.in_memory import times_of_numbers, times_of_texts
 from thermodata.reader.text.times.time_formats import find_format, find_formats, share
 

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.time_pattern import (
+from thermodata.reader.text.cells.time_forms.time_pattern import (
     DATE,
     DATETIME,
     MILLISECOND,

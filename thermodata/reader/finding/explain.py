@@ -15,8 +15,8 @@ from thermodata.reader.contract.guard import described
 from thermodata.reader.finding.foreign_files import foreign_file, foreign_kind
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
-from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
-from thermodata.reader.text.cells.named_values import named_values
+from thermodata.reader.text.cells.lines.delimiter import BLANKS, find_delimiter
+from thermodata.reader.text.cells.lines.named_values import named_values
 from thermodata.reader.text.file.foreign_texts import foreign_text
 
 # First bytes of what lies in folders of logs without being one

@@ -3,7 +3,7 @@
 Each room stands on those above it:
 
 - `file`: a text before it is a table: its encoding, whole lines in bounded memory, where a row stands, losses;
-- `cells`: what stands between cells, and what one says: `number` (the one policy a cell), `time_pattern`, `status`;
+- `cells`: what one says: `values` (`number` is the one policy), `time_forms`; what stands between them: `lines`;
 - `names`: what a header says: names and units, which column is called a time, which rows are a header;
 - `times`: how times are written in a column, and what they say in nanoseconds;
 - `preamble`: what the lines above a table say of its times; `clocks`: which of its columns are times;
@@ -15,8 +15,8 @@ Each room stands on those above it:
 
 from __future__ import annotations
 
-from thermodata.reader.text.cells.number import decimal_mark
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import decimal_mark
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.encoding import decode, decode_head, find_encoding
 from thermodata.reader.text.file.lines import last_line_is_whole
 from thermodata.reader.text.names.header import looks_like_unit, split_unit

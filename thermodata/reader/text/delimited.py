@@ -16,10 +16,10 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.signals.row_units import UNIT_OF
 from thermodata.reader.signals.taken_apart import TakenApart
-from thermodata.reader.text.cells.delimiter import fields, parted_bytes
-from thermodata.reader.text.cells.named_values import all_in_columns
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.stamped_lines import all_with_stamp
+from thermodata.reader.text.cells.lines.delimiter import fields, parted_bytes
+from thermodata.reader.text.cells.lines.named_values import all_in_columns
+from thermodata.reader.text.cells.lines.stamped_lines import all_with_stamp
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import in_one_unit

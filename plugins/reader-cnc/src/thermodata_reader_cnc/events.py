@@ -14,9 +14,9 @@ import numpy as np
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.signals.beat import Beat, beat_of
 from thermodata.reader.signals.events import HeldRows, Value
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.number import is_empty, is_overload, to_bool, to_float
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
+from thermodata.reader.text.cells.values.number import is_empty, is_overload, to_bool, to_float
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.times.zone import NAT

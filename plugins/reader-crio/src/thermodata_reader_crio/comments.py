@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.text.cells.number import to_bool, to_float
+from thermodata.reader.text.cells.values.number import to_bool, to_float
 from thermodata.schema.flag import Flag
 
 _LOST = re.compile(

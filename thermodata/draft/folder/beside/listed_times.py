@@ -10,8 +10,8 @@ from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
 from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.cells.clock_pattern import says_the_hour
-from thermodata.reader.text.cells.time_pattern import DAY_NS, is_date_text, is_time_of_day, is_zoned
+from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, is_date_text, is_time_of_day, is_zoned
 from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.time_formats import find_format

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from thermodata.errors import FormatError, SpecError
 from thermodata.reader.text import decimal_mark, decode
-from thermodata.reader.text.cells.delimiter import DELIMITERS, fields, shown
-from thermodata.reader.text.cells.number import to_bool, to_float
+from thermodata.reader.text.cells.lines.delimiter import DELIMITERS, fields, shown
+from thermodata.reader.text.cells.values.number import to_bool, to_float
 
 
 @dataclass(frozen=True)

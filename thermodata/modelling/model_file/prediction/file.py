@@ -11,7 +11,7 @@ from pathlib import Path
 from thermodata.errors import SpecError, UsageError, nearest
 from thermodata.modelling.model_file.prediction.cells import Numbers, numbers_of, read_cells
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.cells.number import is_empty
+from thermodata.reader.text.cells.values.number import is_empty
 from thermodata.schema.units.conversion import delta_factor
 
 _COLUMNS = ("test", "t_s", "predicted")

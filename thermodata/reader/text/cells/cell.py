@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
-from thermodata.reader.text.cells.number import spelled
-from thermodata.reader.text.cells.time_pattern import is_date_text, is_time_of_day
+from thermodata.reader.text.cells.time_forms.time_pattern import is_date_text, is_time_of_day
+from thermodata.reader.text.cells.values.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.values.number import spelled
 
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature

@@ -9,10 +9,10 @@ from collections import Counter
 from collections.abc import Sequence
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.calendar_words import folded, is_worded_date
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, mostly
-from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
+from thermodata.reader.text.cells.time_forms.calendar_words import folded, is_worded_date
+from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.times.days_without_year import is_day_without_year, is_week_without_year

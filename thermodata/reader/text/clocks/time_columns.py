@@ -9,9 +9,9 @@ from itertools import islice, pairwise
 
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
-from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.time_pattern import part_of_a_second
+from thermodata.reader.text.cells.time_forms.clock_pattern import BLANK, HALF, says_the_hour
+from thermodata.reader.text.cells.time_forms.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.odd_clocks import are_pointed_clocks, looks_like_dates
 from thermodata.reader.text.clocks.transposed import ADVICE, is_transposed
 from thermodata.reader.text.clocks.zoned_beside import zoned_beside

@@ -11,8 +11,8 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.joined_clock import format_of_joined
-from thermodata.reader.text.cells.zone_words import ANY_ZONE, HOURS, SEVERAL, word_behind
+from thermodata.reader.text.cells.time_forms.joined_clock import format_of_joined
+from thermodata.reader.text.cells.time_forms.zone_words import ANY_ZONE, HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.clocks.counts_of_seconds import far_question
 from thermodata.reader.text.clocks.format_question import format_question

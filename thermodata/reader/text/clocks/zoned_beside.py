@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_empty, mostly
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
 
 _ZONED = re.compile(r":\d\d(?:[.,]\d+)?\s*(?:Z|UTC|[+-]\d\d:?\d\d)$")
 _CLOCK = re.compile(r"(\d{1,2}):(\d\d)(?::(\d\d)(?:[.,](\d+))?)?\s*([AaPp])?")

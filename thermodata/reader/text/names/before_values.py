@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Bool1D
 from thermodata.reader.signals.interleaved import STATES
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stamp, mostly
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.schema.units.unit import is_unit
 
 _FEWEST_ROWS, _FEWEST_PAIRS, _LONGEST = 10, 2, 60

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_number, is_stamp
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.group_heads import (
     apart_by_comments,
     heads_over,

@@ -11,7 +11,7 @@ from thermodata.reader.signals.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.signals.interleaved import bare_header, words_of
 from thermodata.reader.signals.row_units import UnitColumn, converts_here, in_unit
 from thermodata.reader.signals.unit_words import holds_units, may_be_a_machine
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.unit import is_unit, normal_unit
 

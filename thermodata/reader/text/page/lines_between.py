@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.number import of_either_mark
+from thermodata.reader.text.cells.values.number import of_either_mark
 from thermodata.reader.text.names.header_rows import rows_between, texts_of
 from thermodata.reader.text.page.head import Head
 from thermodata.schema.units.scale import with_power_of_ten

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_stamp, mostly
-from thermodata.reader.text.cells.time_pattern import part_of_a_second
+from thermodata.reader.text.cells.time_forms.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.names_of_time import (
     ENOUGH,
     cells_of_time,

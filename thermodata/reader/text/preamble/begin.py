@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.cell import number_of
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, Unread, head_start, unread_start
 from thermodata.reader.text.preamble.head_words import Says
 from thermodata.reader.text.times.date_parts import row_time

@@ -11,10 +11,10 @@ from itertools import product
 import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
-from thermodata.reader.text.cells.zone_words import WORDS, offset_ns
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TIME_OF_DAY
+from thermodata.reader.text.cells.time_forms.zone_words import WORDS, offset_ns
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.preamble.head_words import Says, said_by
 from thermodata.reader.text.preamble.pass_words import without_pass
 from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, tells_the_hour, with_month

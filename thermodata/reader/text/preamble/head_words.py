@@ -12,7 +12,7 @@ import re
 from collections.abc import Sequence
 from enum import IntEnum
 
-from thermodata.reader.text.cells.calendar_words import WEEKDAYS
+from thermodata.reader.text.cells.time_forms.calendar_words import WEEKDAYS
 
 
 class Says(IntEnum):

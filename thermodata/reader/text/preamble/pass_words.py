@@ -12,7 +12,7 @@ from zoneinfo import ZoneInfo
 from thermodata.archive.unpacked import held
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.cell import is_number
-from thermodata.reader.text.cells.zone_words import HOURS
+from thermodata.reader.text.cells.time_forms.zone_words import HOURS
 from thermodata.reader.text.file.encoding import decode_head
 from thermodata.reader.times.repeated_hour import RepeatedHour
 

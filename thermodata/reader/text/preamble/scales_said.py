@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from thermodata.reader.text.cells.number import of_either_mark, to_bool
+from thermodata.reader.text.cells.values.number import of_either_mark, to_bool
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, spellings
 from thermodata.schema.units.conversion import converts

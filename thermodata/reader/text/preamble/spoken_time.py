@@ -7,9 +7,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from thermodata.reader.text.cells.calendar_words import MONTH, WEEKDAYS, folded
-from thermodata.reader.text.cells.clock_pattern import HALF
-from thermodata.reader.text.cells.zone_words import OFFSET, WORDS
+from thermodata.reader.text.cells.time_forms.calendar_words import MONTH, WEEKDAYS, folded
+from thermodata.reader.text.cells.time_forms.clock_pattern import HALF
+from thermodata.reader.text.cells.time_forms.zone_words import OFFSET, WORDS
 from thermodata.reader.text.preamble.zone_places import place_in
 from thermodata.reader.text.times.timestamp import CENTURY
 

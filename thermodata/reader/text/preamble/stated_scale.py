@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Literal
 
 from thermodata.plugin import Signal
-from thermodata.reader.text.cells.number import of_either_mark
+from thermodata.reader.text.cells.values.number import of_either_mark
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
 from thermodata.schema.units.scale import with_power_of_ten
 from thermodata.schema.units.unit import is_unit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from thermodata.reader.text.cells.time_pattern import DAY_NS
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS
 from thermodata.reader.text.preamble.begin import FirstTimes
 
 

@@ -20,7 +20,7 @@ from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.reader.signals.set_values import are_set
 from thermodata.reader.text.cells.cell import number_of
-from thermodata.reader.text.cells.no_value import EMPTY
+from thermodata.reader.text.cells.values.no_value import EMPTY
 from thermodata.reader.text.names.called_column import by_name, by_name_or_place
 from thermodata.reader.text.names.header import split_unit
 from thermodata.schema.units.unit import normal_unit

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePath
 
-from thermodata.reader.text.cells.delimiter import find_delimiter
+from thermodata.reader.text.cells.lines.delimiter import find_delimiter
 from thermodata.reader.text.file.foreign_texts import foreign_text
 
 _FEWEST_FIXED, _RAGGED, _NEARLY_ALL = 5, 0.15, 0.8

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.cells.column import Values
+from thermodata.reader.text.cells.values.column import Values
 
 TIME = "time"  # a column of times as text: left as it stands
 

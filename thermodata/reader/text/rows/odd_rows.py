@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.reader.text.cells.arrow import text_array
-from thermodata.reader.text.cells.column import Values, values_of
-from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.arrow import text_array
+from thermodata.reader.text.cells.values.column import Values, values_of
 from thermodata.reader.text.rows.grid import TIME, BadLine, Grid, Rows
 
 _MOST_LINES = 64  # of one cell in quotes

@@ -11,9 +11,9 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.signals.interleaved import bare_header
-from thermodata.reader.text.cells.number import of_either_mark, to_bool
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import (
+from thermodata.reader.text.cells.values.number import of_either_mark, to_bool
+from thermodata.reader.text.cells.values.quotes import clean
+from thermodata.reader.text.cells.values.status import (
     BAD,
     are_qualities,
     is_good,

@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.cells import arrow
-from thermodata.reader.text.cells.arrow import text_array
-from thermodata.reader.text.cells.column import Values
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.no_value import null_words
-from thermodata.reader.text.cells.number import EXACT
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values import arrow
+from thermodata.reader.text.cells.values.arrow import text_array
+from thermodata.reader.text.cells.values.column import Values
+from thermodata.reader.text.cells.values.no_value import null_words
+from thermodata.reader.text.cells.values.number import EXACT
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import count
 from thermodata.reader.text.rows.grid import TIME, BadLine, Grid, Rows
 from thermodata.reader.text.rows.odd_rows import SHOWN, CutRows, converted, line_by_line

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_number, is_stamp
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
 from thermodata.reader.text.page.header_again import repeats_of

@@ -6,9 +6,16 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
-from thermodata.reader.text.cells.number import EXACT, decimal_mark, is_number, may_be_thousands, to_bool, to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.values.number import (
+    EXACT,
+    decimal_mark,
+    is_number,
+    may_be_thousands,
+    to_bool,
+    to_float,
+)
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.of_text import OF_TEXT
 from thermodata.reader.times.open_questions import UNKNOWN
 

@@ -10,11 +10,11 @@ from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.text.cells import delimiter as delimiters
-from thermodata.reader.text.cells.named_values import TIME as NAMED_TIME
-from thermodata.reader.text.cells.named_values import named_values
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.cells.lines import delimiter as delimiters
+from thermodata.reader.text.cells.lines.named_values import TIME as NAMED_TIME
+from thermodata.reader.text.cells.lines.named_values import named_values
+from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.page.group import STREAM, Group

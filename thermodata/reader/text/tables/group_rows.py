@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import why_none
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.number import why_none
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.row_clock import RowClock

@@ -8,10 +8,10 @@ from functools import partial
 from typing import Any
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells import delimiter as delimiters
-from thermodata.reader.text.cells.named_values import in_columns, named_values
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.stamped_lines import stamped_by, with_stamp
+from thermodata.reader.text.cells.lines import delimiter as delimiters
+from thermodata.reader.text.cells.lines.named_values import in_columns, named_values
+from thermodata.reader.text.cells.lines.stamped_lines import stamped_by, with_stamp
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 

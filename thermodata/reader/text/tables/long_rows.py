@@ -11,8 +11,8 @@ from itertools import combinations
 from thermodata.errors import FormatError
 from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.signals.interleaved import STATES
-from thermodata.reader.text.cells.number import is_number
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import is_number
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.schema.words.sentences import with_dots
 
 _FEWEST_ROWS = 10

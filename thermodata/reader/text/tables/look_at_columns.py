@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.errors import FormatError
 from thermodata.reader.signals.row_units import UnitColumn
-from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.cells.values.status import declared_zero
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import paired_units, unit_column, unit_column_note
 from thermodata.reader.text.rows.grid import TIME

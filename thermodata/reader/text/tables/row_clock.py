@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.cells.arrow import values
-from thermodata.reader.text.cells.column import Values
-from thermodata.reader.text.cells.time_pattern import DAY_NS
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS
+from thermodata.reader.text.cells.values.arrow import values
+from thermodata.reader.text.cells.values.column import Values
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.table import TimedGroup

@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Block, Int1D, Source
 from thermodata.reader.signals.series import Declaration, Found, Series, find_series
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Chunk
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.table import Table

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import TimedGroup

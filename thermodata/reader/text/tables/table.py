@@ -12,9 +12,9 @@ from functools import cached_property
 from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.signals.series import Series
 from thermodata.reader.text.cells.cell import is_number
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
 from thermodata.reader.text.names.header import told_alike
 from thermodata.reader.text.page.group import Group

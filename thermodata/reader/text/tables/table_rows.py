@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Loss, Source
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.number import to_float
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.before_values import behind_another, other_word

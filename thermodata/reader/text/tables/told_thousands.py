@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from thermodata.reader.text.cells.number import spelled
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import spelled
+from thermodata.reader.text.cells.values.quotes import clean
 
 _SHORT, _LONG = re.compile(r"[+-]?[1-9]\d{0,2}", re.ASCII), re.compile(r"[+-]?\d{4,}(?:[.,]\d*)?", re.ASCII)
 # of no thousands: not three digits behind the mark, or a zero before it

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from thermodata.reader.text.cells.zone_words import HOURS, zone_above
+from thermodata.reader.text.cells.time_forms.zone_words import HOURS, zone_above
 from thermodata.reader.text.preamble.zone_places import places_above, zone_by_name
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.times.zone import utc_offset_ns

@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable, Sequence
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.times.odd_stamps import guess_format
 
 _CLOCK = re.compile(

@@ -11,10 +11,10 @@ from itertools import pairwise
 
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_number, mostly, number_of
-from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.joined_clock import read_joined
-from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
+from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.time_forms.joined_clock import read_joined
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import since_midnight
 from thermodata.reader.times.zone import NAT

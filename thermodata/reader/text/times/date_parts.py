@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.arrow import text_array
 from thermodata.reader.text.cells.cell import Cell, is_clocked, mostly, number_of
-from thermodata.reader.text.cells.clock_pattern import HALF
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.clock_pattern import HALF
+from thermodata.reader.text.cells.time_forms.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.cells.values.arrow import text_array
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_numbers import days_of_years

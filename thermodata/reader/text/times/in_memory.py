@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.text.cells.time_pattern import DAY_NS
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.days import STANDS, Days, have_days, stands
 from thermodata.reader.text.times.local_clock import DayCount

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Sequence
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.calendar_words import letters_of
-from thermodata.reader.text.cells.zone_words import without_zone
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.calendar_words import letters_of
+from thermodata.reader.text.cells.time_forms.zone_words import without_zone
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.times.zone import NAT
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D, Loss
-from thermodata.reader.text.cells.arrow import text_array
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
+from thermodata.reader.text.cells.values.arrow import text_array
 from thermodata.schema.words.sentences import counted
 
 _SIXTY = "60"

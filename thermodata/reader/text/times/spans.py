@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from itertools import pairwise
 
-from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
+from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.times.zone import NAT
 
 _S = 10**9

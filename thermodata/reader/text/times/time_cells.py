@@ -9,10 +9,10 @@ from dataclasses import replace
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stamp
-from thermodata.reader.text.cells.clock_pattern import is_half, needs_half
 from thermodata.reader.text.cells.first_rows import FirstRows
-from thermodata.reader.text.cells.time_pattern import TimeFormat
-from thermodata.reader.text.cells.zone_words import ANY_ZONE, SEVERAL, is_zone, offset_ns
+from thermodata.reader.text.cells.time_forms.clock_pattern import is_half, needs_half
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
+from thermodata.reader.text.cells.time_forms.zone_words import ANY_ZONE, SEVERAL, is_zone, offset_ns
 from thermodata.reader.text.names.header import split_unit
 
 _HOUR_NS = 3600 * 1_000_000_000

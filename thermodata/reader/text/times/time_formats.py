@@ -16,8 +16,8 @@ from functools import partial
 import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.time_pattern import (
+from thermodata.reader.text.cells.time_forms import time_pattern
+from thermodata.reader.text.cells.time_forms.time_pattern import (
     DATE,
     DATETIME,
     DAY_NS,

@@ -16,11 +16,11 @@ import numpy as np
 import numpy.typing as npt
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.cells.arrow import text_array
-from thermodata.reader.text.cells.calendar_words import in_english
-from thermodata.reader.text.cells.clock_pattern import in_24_hours
-from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
-from thermodata.reader.text.cells.zone_words import offset_ns, with_zone_in_digits
+from thermodata.reader.text.cells.time_forms.calendar_words import in_english
+from thermodata.reader.text.cells.time_forms.clock_pattern import in_24_hours
+from thermodata.reader.text.cells.time_forms.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
+from thermodata.reader.text.cells.time_forms.zone_words import offset_ns, with_zone_in_digits
+from thermodata.reader.text.cells.values.arrow import text_array
 from thermodata.reader.times.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y

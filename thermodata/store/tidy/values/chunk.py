@@ -14,7 +14,7 @@ from thermodata.calibration.quality.ends.limit import codes_of
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Float1D, Int1D
-from thermodata.reader.text.cells.number import is_empty, is_overload
+from thermodata.reader.text.cells.values.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.plan import derive

@@ -18,8 +18,8 @@ from typing import Any
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.cells.number import to_float
-from thermodata.reader.text.cells.status import BAD, declared_zero, zero_is_good
+from thermodata.reader.text.cells.values.number import to_float
+from thermodata.reader.text.cells.values.status import BAD, declared_zero, zero_is_good
 from thermodata.reader.text.file.lines import ODD, chunks, sample
 from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata.reader.text.file.losses import NAMED

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from thermodata.reader.signals.header_words import LABEL_WORDS, SENSOR_WORDS
-from thermodata.reader.text.cells.status import is_good
+from thermodata.reader.text.cells.values.status import is_good
 from thermodata_reader_cnc.events import GONE
 from thermodata_reader_cnc.messages.json_text import Number, loads
 from thermodata_reader_cnc.messages.shape import QC, Shape, shape_of

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 from xml.parsers import expat
 
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.values.number import to_float
 from thermodata_reader_cnc.mtconnect.time_series import Report
 
 _MOST_TEXT = 1 << 24  # characters of one value

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text.cells.time_pattern import OFFSET_MS, OFFSET_S
+from thermodata.reader.text.cells.time_forms.time_pattern import OFFSET_MS, OFFSET_S
 from thermodata.reader.text.file.lines import ODD, chunks, sample
 from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata_reader_cnc import events

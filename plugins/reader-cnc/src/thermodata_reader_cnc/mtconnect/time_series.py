@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Block, Loss, Signal
-from thermodata.reader.text.cells.column import values_of
+from thermodata.reader.text.cells.values.column import values_of
 from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_cnc.events import GONE, to_utc

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 from thermodata.reader.signals.unit_words import holds_units
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import is_empty
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import are_qualities, is_severity, tells_quality, zero_is_good
-from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
+from thermodata.reader.text.cells.values.number import is_empty
+from thermodata.reader.text.cells.values.quotes import clean
+from thermodata.reader.text.cells.values.status import are_qualities, is_severity, tells_quality, zero_is_good
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx

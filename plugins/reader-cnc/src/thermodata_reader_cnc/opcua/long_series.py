@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from thermodata.plugin import Int1D
 from thermodata.reader.signals.header_words import LABEL_WORDS, NAME_WORDS
-from thermodata.reader.text.cells.number import is_empty, is_number
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.time_pattern import is_date_text, is_time_of_day
+from thermodata.reader.text.cells.time_forms.time_pattern import is_date_text, is_time_of_day
+from thermodata.reader.text.cells.values.number import is_empty, is_number
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.times.zone import NAT
 
 _LIVELY = 0.25  # of the rows: a word that changes as often stands for one of several series, and is no state

@@ -15,10 +15,10 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import to_float
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import BAD, declared_zero, is_good
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.number import to_float
+from thermodata.reader.text.cells.values.quotes import clean
+from thermodata.reader.text.cells.values.status import BAD, declared_zero, is_good
 from thermodata.reader.text.file.lines import ODD, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata.reader.text.file.losses import NAMED

@@ -12,9 +12,8 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.text.cells.cell import TIME_WORD
-from thermodata.reader.text.cells.clock_pattern import says_the_hour
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.time_pattern import (
+from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.time_forms.time_pattern import (
     DATETIME,
     SINCE_A_DAY,
     TimeFormat,
@@ -22,7 +21,8 @@ from thermodata.reader.text.cells.time_pattern import (
     is_date_text,
     is_zoned,
 )
-from thermodata.reader.text.cells.zone_words import WORDS, stated_zone
+from thermodata.reader.text.cells.time_forms.zone_words import WORDS, stated_zone
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.preamble.zone_places import place_in
 from thermodata.reader.text.tables.zone_named import named_note
 from thermodata.reader.text.times.odd_stamps import guess_format

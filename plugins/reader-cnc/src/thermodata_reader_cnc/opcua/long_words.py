@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
-from thermodata.reader.text.cells.number import is_number
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import is_number
+from thermodata.reader.text.cells.values.quotes import clean
 
 VALUES = (
     *("tagval", "tagvalue", "varvalue", *VALUE_WORDS, "payload"),

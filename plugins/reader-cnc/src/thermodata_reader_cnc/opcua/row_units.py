@@ -11,9 +11,9 @@ from functools import lru_cache
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.signals.unit_words import is_surely_unit
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import is_empty, of_either_mark, to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.number import is_empty, of_either_mark, to_float
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.schema.units.conversion import linear_conversion
 from thermodata_reader_cnc.opcua.long_layout import Layout
 

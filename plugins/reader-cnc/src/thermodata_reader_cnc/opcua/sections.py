@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import chunks
 from thermodata_reader_cnc.opcua.long_layout import Layout, clean_line, find_layout
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import is_number, to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.values.number import is_number, to_float
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import chunks, from_line, sample, split_last_line
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses

@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Float1D, Int1D, Loss
 from thermodata.reader.signals.events import fill_forward
-from thermodata.reader.text.cells.column import values_of
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.values.column import values_of
+from thermodata.reader.text.cells.values.number import to_float
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.numbered import numbered
 from thermodata_reader_cnc.sinumerik.trace_records import Frame

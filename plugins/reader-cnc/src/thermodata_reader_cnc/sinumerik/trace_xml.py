@@ -16,7 +16,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.file.locate import row_at
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock

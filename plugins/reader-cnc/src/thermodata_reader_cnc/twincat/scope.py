@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text.cells.number import to_float, to_int
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import to_float, to_int
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.number import is_empty, is_number, of_either_mark, to_bool, to_int
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import is_empty, is_number, of_either_mark, to_bool, to_int
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.times.time_units import EPOCHS, to_ns
 
 START = re.compile(r"^Start\s?(?:time of (?:export|record)|Record)\s*([\t;,|])\s*\"?(\d{15,19})\b", re.IGNORECASE)

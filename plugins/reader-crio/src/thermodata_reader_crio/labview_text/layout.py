@@ -12,8 +12,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Float2D, Head
-from thermodata.reader.text.cells.number import decimal_mark, is_empty, is_overload, to_bool, to_float
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.number import decimal_mark, is_empty, is_overload, to_bool, to_float
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.encoding import decode_head
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time

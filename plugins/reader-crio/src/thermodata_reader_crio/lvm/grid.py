@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.number import decimal_mark
+from thermodata.reader.text.cells.values.number import decimal_mark
 from thermodata.reader.text.rows.grid import Grid, Rows
 from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.header import Header, Packet

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D
-from thermodata.reader.text.cells.number import of_either_mark
+from thermodata.reader.text.cells.values.number import of_either_mark
 from thermodata.reader.text.rows.grid import Rows
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.lvm.header import Header, Packet

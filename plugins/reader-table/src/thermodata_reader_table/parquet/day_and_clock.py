@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Bool1D
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_empty, mostly
-from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.first_rows import FirstRows
+from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.clocks.odd_clocks import clock_question
 from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, filled, have_days, is_once

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D
-from thermodata.reader.text.cells.column import values_of
-from thermodata.reader.text.cells.number import decimal_mark
+from thermodata.reader.text.cells.values.column import values_of
+from thermodata.reader.text.cells.values.number import decimal_mark
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.signals.by_place import BY_PLACE
 from thermodata.reader.text.cells.cell import is_empty
-from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
+from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.layout import Layout

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.plugin import Int1D, Source
 from thermodata.reader.text.cells.cell import is_empty
-from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.head_start import ORDERS

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from thermodata.reader.text.cells.clock_pattern import BLANK
+from thermodata.reader.text.cells.time_forms.clock_pattern import BLANK
 
 TIME = "time"  # what the first column is called
 _FEWEST, _NEARLY_ALL, _MOST = 10, 0.95, 1000  # lines, share of them, names

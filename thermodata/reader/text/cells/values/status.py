@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.cells.number import of_either_mark, to_bool
+from thermodata.reader.text.cells.values.number import of_either_mark, to_bool
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.schema.flag import Flag
 

@@ -8,8 +8,8 @@ from collections import Counter
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import is_number, is_stamp
-from thermodata.reader.text.cells.clock_pattern import is_half
-from thermodata.reader.text.cells.zone_words import is_zone
+from thermodata.reader.text.cells.time_forms.clock_pattern import is_half
+from thermodata.reader.text.cells.time_forms.zone_words import is_zone
 
 DELIMITERS = (";", "\t", ",", "|")
 BLANKS = " "  # as many as there are, tabs among them: columns that stand below each other

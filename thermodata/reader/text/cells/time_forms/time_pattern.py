@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.clock_pattern import BLANK, CLOCK, HALF
-from thermodata.reader.text.cells.joined_clock import joined_clock
-from thermodata.reader.text.cells.julian_days import julian_ns
-from thermodata.reader.text.cells.zone_words import ZONE
+from thermodata.reader.text.cells.time_forms.clock_pattern import BLANK, CLOCK, HALF
+from thermodata.reader.text.cells.time_forms.joined_clock import joined_clock
+from thermodata.reader.text.cells.time_forms.julian_days import julian_ns
+from thermodata.reader.text.cells.time_forms.zone_words import ZONE
 
 DAY_NS = 86_400 * 1_000_000_000
 NEVER_NS = 40_000 * DAY_NS

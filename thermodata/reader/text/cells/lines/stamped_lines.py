@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import is_number
-from thermodata.reader.text.cells.delimiter import BLANKS, fields, find_delimiter, parted
+from thermodata.reader.text.cells.lines.delimiter import BLANKS, fields, find_delimiter, parted
 
 TIME = "time"  # what the first column is called where the lines have a header
 _FEWEST, _NEARLY_ALL = 10, 0.95  # lines, and share of them

@@ -23,8 +23,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.values.quotes import clean
 
 TRUE = frozenset({"true", "wahr"})
 FALSE = frozenset({"false", "falsch"})

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D
-from thermodata.reader.text.cells import arrow
-from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
-from thermodata.reader.text.cells.number import EXACT, to_bool, to_float, to_int
-from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.cells.values import arrow
+from thermodata.reader.text.cells.values.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.values.number import EXACT, to_bool, to_float, to_int
+from thermodata.reader.text.cells.values.quotes import clean
 
 _FEW = 100  # cells below which the way through Arrow costs more than it saves
 
