@@ -271,7 +271,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
     assert "kind: spindle" in whole
     (tmp_path / "campaign.yaml").unlink()
     monkeypatch.setattr("thermodata.draft.files.sample._SAMPLE_S", -1.0)
-    monkeypatch.setattr("thermodata.reader.text.tables.table_rows._BLOCK_VALUES", 3000)
+    monkeypatch.setattr("thermodata.reader.text.tables.blocks.table_rows._BLOCK_VALUES", 3000)
     say("init", tmp_path)
     hurried = (tmp_path / "campaign.yaml").read_text()
     assert said in hurried

@@ -8,9 +8,9 @@ from mutant import Mutant
 BESIDE = {
     "preamble/begin.py": ("head_start",),
     "cells/time_forms/clock_pattern.py": ("clock_pattern",),
-    "times/clock_letters.py": ("time_formats",),
-    "tables/columns.py": ("columns",),
-    "times/days.py": ("days",),
+    "times/one_cell/clock_letters.py": ("time_formats",),
+    "tables/sample/columns.py": ("columns",),
+    "times/several_cells/days.py": ("days",),
     "delimited.py": ("delimited",),
     "cells/lines/delimiter.py": ("delimiter",),
     "names/described.py": ("described",),
@@ -36,11 +36,11 @@ BESIDE = {
     "rows/odd_rows.py": ("three_ways", "rows_width"),
     "rows/typed.py": ("three_ways", "rows_width"),
     "tables/table.py": ("delimited",),
-    "tables/group_rows.py": ("delimited",),
-    "tables/table_rows.py": ("delimited",),
+    "tables/blocks/group_rows.py": ("delimited",),
+    "tables/blocks/table_rows.py": ("delimited",),
     "times/time_formats.py": ("time_formats",),
     "cells/time_forms/time_pattern.py": ("timestamp", "time_formats"),
-    "times/timestamp.py": ("timestamp",),
+    "times/one_cell/timestamp.py": ("timestamp",),
     "cells/time_forms/zone_words.py": ("timestamp",),
 }
 
@@ -100,9 +100,9 @@ MUTANTS = [
         "a lost integer is 0",
     ),
     # ---- times
-    text("times/timestamp.py", "CENTURY = 69", "CENTURY = 80", "1970s are 2070s"),
+    text("times/one_cell/timestamp.py", "CENTURY = 69", "CENTURY = 80", "1970s are 2070s"),
     text(
-        "times/timestamp.py",
+        "times/one_cell/timestamp.py",
         'fields["y"] < CENTURY',
         'fields["y"] <= CENTURY',
         "a column has another century than its cells",
@@ -118,32 +118,46 @@ MUTANTS = [
         "zones are turned",
     ),
     text(
-        "times/timestamp.py", "total -= offset_ns(groups", "total += offset_ns(groups", "zones are turned, in columns"
+        "times/one_cell/timestamp.py",
+        "total -= offset_ns(groups",
+        "total += offset_ns(groups",
+        "zones are turned, in columns",
     ),
     text("cells/time_forms/zone_words.py", "int(minutes or 0) * 60)", "0)", "zones of half hours"),
-    text("times/timestamp.py", '{"f": 9, "of": 6}[name]', '{"f": 6, "of": 6}[name]', "fractions are a thousandth"),
     text(
-        "times/timestamp.py", 'int(g["f"].ljust(9, "0"))', 'int(g["f"].rjust(9, "0"))', "fractions without their zeros"
+        "times/one_cell/timestamp.py",
+        '{"f": 9, "of": 6}[name]',
+        '{"f": 6, "of": 6}[name]',
+        "fractions are a thousandth",
     ),
-    text("times/timestamp.py", "& ((year % 100 != 0) | (year % 400 == 0))", "", "a 29 February 2100"),
     text(
-        "times/timestamp.py", "    if not _has_colons(column):\n        return None\n", "", "torn times are whole hours"
+        "times/one_cell/timestamp.py",
+        'int(g["f"].ljust(9, "0"))',
+        'int(g["f"].rjust(9, "0"))',
+        "fractions without their zeros",
     ),
-    text("times/timestamp.py", "int(ns.min()) >= _FIRST_NS and ", "", "years before 1900"),
+    text("times/one_cell/timestamp.py", "& ((year % 100 != 0) | (year % 400 == 0))", "", "a 29 February 2100"),
     text(
-        "times/timestamp.py",
+        "times/one_cell/timestamp.py",
+        "    if not _has_colons(column):\n        return None\n",
+        "",
+        "torn times are whole hours",
+    ),
+    text("times/one_cell/timestamp.py", "int(ns.min()) >= _FIRST_NS and ", "", "years before 1900"),
+    text(
+        "times/one_cell/timestamp.py",
         'if form.body != DATETIME["ymd"].body or',
         "if form.pattern is None or",
         "a declared order of day and month is left out",
     ),
-    text("times/timestamp.py", ".body or form.zoned:", ".body:", "times without their zone among others"),
+    text("times/one_cell/timestamp.py", ".body or form.zoned:", ".body:", "times without their zone among others"),
     text(
-        "times/timestamp.py",
+        "times/one_cell/timestamp.py",
         "        good &= matrix[:, place] == matrix[0, place]\n",
         "        pass\n",
         "what parts a time may be anything",
     ),
-    text("times/timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
+    text("times/one_cell/timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
     text(
         "cells/time_forms/time_pattern.py",
         "(ZONE if zoned else",
@@ -214,19 +228,34 @@ MUTANTS = [
     text("preamble/head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
     text("preamble/head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
     # ---- days and midnights
-    text("times/days.py", "-DAY_NS // 2) & over)", "-DAY_NS // 2))", "a clock that is set back passes midnight"),
     text(
-        "times/days.py", "steps < -_SET_NS", "steps < -DAY_NS // 2", "a log that goes on next morning goes back in time"
+        "times/several_cells/days.py",
+        "-DAY_NS // 2) & over)",
+        "-DAY_NS // 2))",
+        "a clock that is set back passes midnight",
     ),
-    text("times/days.py", "steps < -_SET_NS", "steps < 0", "the hour that repeats passes midnight"),
-    text("times/days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"),
     text(
-        "times/days.py",
+        "times/several_cells/days.py",
+        "steps < -_SET_NS",
+        "steps < -DAY_NS // 2",
+        "a log that goes on next morning goes back in time",
+    ),
+    text("times/several_cells/days.py", "steps < -_SET_NS", "steps < 0", "the hour that repeats passes midnight"),
+    text(
+        "times/several_cells/days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"
+    ),
+    text(
+        "times/several_cells/days.py",
         "bool(away[k]) or count > 0, 0",
         "bool(away[k]), count",
         "a new date keeps the midnights before it",
     ),
-    text("times/days.py", "2) | paused)", "2))", "of a session that begins later in the day no midnight is counted"),
+    text(
+        "times/several_cells/days.py",
+        "2) | paused)",
+        "2))",
+        "of a session that begins later in the day no midnight is counted",
+    ),
     text("cells/time_forms/clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
     text("cells/time_forms/clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
     text("clocks/odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),
@@ -268,11 +297,16 @@ MUTANTS = [
     ),
     text("rows/typed.py", "if table.num_rows != many:", "if False:", "cells over lines move the lines"),
     # ---- tables
-    text("tables/columns.py", "2 * words >= len(full)", "2 * words > len(full)", "half words are numbers"),
-    text("tables/columns.py", "max(1, 0.02 *", "max(3, 0.02 *", "comments are numbers"),
-    text("tables/columns.py", "0.02 * len(full)", "0.2 * len(full)", "comments are numbers"),
-    text("tables/columns.py", "EXACT < most < 2**63", "EXACT < most", "integers that no int64 holds"),
-    text("tables/columns.py", "if all(_GROUPED.fullmatch(c) for c in commas):", "if False:", "thousands are fractions"),
+    text("tables/sample/columns.py", "2 * words >= len(full)", "2 * words > len(full)", "half words are numbers"),
+    text("tables/sample/columns.py", "max(1, 0.02 *", "max(3, 0.02 *", "comments are numbers"),
+    text("tables/sample/columns.py", "0.02 * len(full)", "0.2 * len(full)", "comments are numbers"),
+    text("tables/sample/columns.py", "EXACT < most < 2**63", "EXACT < most", "integers that no int64 holds"),
+    text(
+        "tables/sample/columns.py",
+        "if all(_GROUPED.fullmatch(c) for c in commas):",
+        "if False:",
+        "thousands are fractions",
+    ),
     text("cells/lines/delimiter.py", "share >= 0.5", "share >= 0.1", "prose is a table"),
     text("cells/lines/delimiter.py", "share > best[0] + 0.2", "share > best[0]", "a decimal comma delimits"),
     text(
@@ -280,33 +314,48 @@ MUTANTS = [
     ),
     text("cells/lines/delimiter.py", "or line.count('\"') % 2", "", "a quote left open swallows delimiters"),
     text("page/first_data.py", " and following[0] not in body[:i]", "", "a row above a repeated header is lost"),
-    text("tables/group_rows.py", "rows.line[good] + 1)\n", "rows.line[good])\n", "a trace shows the line above"),
-    text("tables/group_rows.py", "cells.over * _OVER if cells.over.any() else None", "None", "overload is not flagged"),
+    text("tables/blocks/group_rows.py", "rows.line[good] + 1)\n", "rows.line[good])\n", "a trace shows the line above"),
     text(
-        "tables/group_rows.py", "(cells.empty & ~cells.over) * _NONE", "cells.empty * _NONE", "overload is not measured"
+        "tables/blocks/group_rows.py",
+        "cells.over * _OVER if cells.over.any() else None",
+        "None",
+        "overload is not flagged",
     ),
     text(
-        "tables/table_rows.py",
+        "tables/blocks/group_rows.py",
+        "(cells.empty & ~cells.over) * _NONE",
+        "cells.empty * _NONE",
+        "overload is not measured",
+    ),
+    text(
+        "tables/blocks/table_rows.py",
         "return line in self._anew or self.table.repeats_header(text)",
         "return line in self._anew",
         "repeated headers are losses",
     ),
-    text("tables/table_rows.py", "        self.stopped = True\n", "", "two tables are one"),
-    text("tables/table_rows.py", "return rows.before(number), [", "return rows, [", "rows of another table are read"),
-    text("tables/table_rows.py", "waiting[waiting < last_whole]", "waiting[:0]", "torn rows of groups are no loss"),
+    text("tables/blocks/table_rows.py", "        self.stopped = True\n", "", "two tables are one"),
     text(
-        "tables/table_rows.py",
+        "tables/blocks/table_rows.py",
+        "return rows.before(number), [",
+        "return rows, [",
+        "rows of another table are read",
+    ),
+    text(
+        "tables/blocks/table_rows.py", "waiting[waiting < last_whole]", "waiting[:0]", "torn rows of groups are no loss"
+    ),
+    text(
+        "tables/blocks/table_rows.py",
         "self.grid, self.sure = replace(self.grid, decimal=other), True",
         "self.sure = True",
         "fractions far down are lost",
     ),
     text(
-        "tables/group_rows.py",
+        "tables/blocks/group_rows.py",
         "                if good[row]:\n",
         "                if True:\n",
         "a lost row is lost again by its cells",
     ),
-    text("tables/table_rows.py", "elif tail.strip(", "elif False and tail.strip(", "a torn end is no loss"),
+    text("tables/blocks/table_rows.py", "elif tail.strip(", "elif False and tail.strip(", "a torn end is no loss"),
     text("tables/table.py", '.strip("\\ufeff")', "", "joined files end at the second header"),
     text("tables/table.py", "            exact=True,\n", "", "a delimiter too much shifts cells"),
     text(
@@ -332,13 +381,16 @@ MUTANTS = [
     text("rows/footer.py", "(bool(others) and _STATISTIC", "(_STATISTIC", "a word alone is statistics"),
     text("file/foreign_texts.py", "not cut and all(words)", "all(words)", "a program is a print"),
     text(
-        "times/clock_letters.py",
+        "times/one_cell/clock_letters.py",
         "if not full or share(full, form):",
         "if not full:",
         "damage refuses a declared format",
     ),
     text(
-        "times/clock_letters.py", 'f"{found[\'mark\']}%f" if found["mark"] else ""', '""', "fractions are not proposed"
+        "times/one_cell/clock_letters.py",
+        'f"{found[\'mark\']}%f" if found["mark"] else ""',
+        '""',
+        "fractions are not proposed",
     ),
     text("file/losses.py", "NAMED = 20", "NAMED = 10", "half of the losses have no line"),
     text("file/losses.py", "line {line + 1}", "line {line}", "losses name the line above"),

@@ -11,7 +11,7 @@ from thermodata.draft.make import draft_files
 from thermodata.errors import QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.times.days_without_year import is_week_without_year
+from thermodata.reader.text.times.several_cells.days_without_year import is_week_without_year
 
 
 def log(folder: Path, head: str, *days: str) -> Path:

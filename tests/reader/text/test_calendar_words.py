@@ -12,8 +12,8 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.text.cells.time_forms.calendar_words import is_worded_date
 from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
-from thermodata.reader.text.times.odd_stamps import guess_format
-from thermodata.reader.text.times.timestamp import parse_one
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell.timestamp import parse_one
 from thermodata.testing.reader import load
 
 NS = 1_000_000_000

@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.text.times.time_formats import find_format
 
 DAY = "2026-03-22"

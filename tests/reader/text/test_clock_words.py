@@ -12,10 +12,10 @@ from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
 from thermodata.reader.text.tables.find_table import open_table
-from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.local_clock import DayCount
+from thermodata.reader.text.times.one_cell.clock_words import said_clock
+from thermodata.reader.text.times.one_cell.timestamp import parse, parse_one
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.text.times.timestamp import parse, parse_one
 
 S = 1_000_000_000
 SHORT = ["00:05", "05:10"]

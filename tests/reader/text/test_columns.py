@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.values.number import EXACT
-from thermodata.reader.text.tables.columns import dtype_of, find_decimal
+from thermodata.reader.text.tables.sample.columns import dtype_of, find_decimal
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,8 @@ from thermodata.plugin import Source
 from thermodata.reader.text.cells.time_forms.time_pattern import declared_format
 from thermodata.reader.text.page.first_data import is_data
 from thermodata.reader.text.tables.find_table import open_table
-from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
 
 FIRST = datetime(2026, 3, 2, 8)
 STEP = timedelta(minutes=5)

@@ -14,7 +14,7 @@ from thermodata_reader_table import Reader
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.times.spans import SPAN, are_spans, is_span
+from thermodata.reader.text.times.one_cell.spans import SPAN, are_spans, is_span
 from thermodata.reader.times.zone import NAT
 from thermodata.testing.reader import load
 

@@ -22,7 +22,7 @@ from thermodata.reader.text.cells.time_forms.time_pattern import (
     is_zoned,
     with_zone,
 )
-from thermodata.reader.text.times.timestamp import offset_ns, parse, parse_one
+from thermodata.reader.text.times.one_cell.timestamp import offset_ns, parse, parse_one
 from thermodata.reader.times.zone import NAT
 
 S = 1_000_000_000

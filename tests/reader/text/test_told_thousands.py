@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import QuestionError
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.tables.told_thousands import told_thousands
+from thermodata.reader.text.tables.sample.told_thousands import told_thousands
 
 TEMPERATURES = [f"2{k % 9},{k % 7}4" for k in range(60)]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from thermodata.reader.text.times.unpadded import unpadded_note
+from thermodata.reader.text.times.one_cell.unpadded import unpadded_note
 
 
 def _clock(of: Callable[[int], str], step: int) -> list[str]:

@@ -12,7 +12,7 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.tables.find_table import open_table
-from thermodata.reader.text.tables.zone_named import named_in, saving_on
+from thermodata.reader.text.tables.sample.zone_named import named_in, saving_on
 
 HOUR = 3600 * 10**9
 EIGHT = 1772438400 * 10**9  # 2026-03-02 08:00 UTC

@@ -23,7 +23,7 @@ from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
 from thermodata.reader.text.preamble.begin import BY_HALF, EITHER, NOT_TAKEN, UNREAD
 from thermodata.reader.text.rows.changed_cells import DOUBT
-from thermodata.reader.text.times.unpadded import UNPADDED
+from thermodata.reader.text.times.one_cell.unpadded import UNPADDED
 from thermodata.reader.times.open_questions import ASK, UNKNOWN, YEAR
 from thermodata.reader.times.zone import NO_ZONE
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 
 from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
-from thermodata.reader.text.tables.zone_named import named_in
+from thermodata.reader.text.tables.sample.zone_named import named_in
 
 EXAMPLE = "e.g. timezone: Europe/Prague, or UTC+1 of a clock on winter time all year"
 

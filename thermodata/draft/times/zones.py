@@ -15,7 +15,7 @@ from thermodata.draft.folder.beside.clock_said import zone_said
 from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import EXAMPLE, named_zone, zone_in
-from thermodata.reader.text.tables.zone_named import OPEN, SAYS
+from thermodata.reader.text.tables.sample.zone_named import OPEN, SAYS
 from thermodata.reader.times.step_back import likely_cause
 from thermodata.schema.words.sentences import with_count
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from thermodata.plugin import Head, Source
 from thermodata.reader.text.file.encoding import decode_head
 from thermodata.reader.text.file.lines import Sample
-from thermodata.reader.text.page.group import STREAM
+from thermodata.reader.text.page.timed.group import STREAM
 from thermodata.reader.text.tables.find_table import find_table
 from thermodata.reader.text.tables.table import Table
 

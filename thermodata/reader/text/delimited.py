@@ -29,11 +29,11 @@ from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.preamble.ways_said import WAY, ways_said
 from thermodata.reader.text.rows.event_line import event_notes
 from thermodata.reader.text.rows.footer import footer_notes
+from thermodata.reader.text.tables.blocks.table_rows import RowReader
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
-from thermodata.reader.text.tables.table_rows import RowReader
-from thermodata.reader.text.times.days_without_year import yearless_note
 from thermodata.reader.text.times.local_clock import DayCount
+from thermodata.reader.text.times.several_cells.days_without_year import yearless_note
 from thermodata.reader.times.repeated_hour import repeated_hour
 from thermodata.reader.times.time_units import EPOCHS
 from thermodata.reader.times.zone import local_to_utc_ns, skipped_notes, skips_between, utc_offset_ns

@@ -17,8 +17,8 @@ from thermodata.reader.signals.events import HeldRows, Value
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.cells.values.number import is_empty, is_overload, to_bool, to_float
-from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.numbered import numbered

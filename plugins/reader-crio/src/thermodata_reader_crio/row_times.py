@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TIME_OF_DAY, declared_format, with_zone
-from thermodata.reader.text.times.timestamp import parse_one
+from thermodata.reader.text.times.one_cell.timestamp import parse_one
 from thermodata.reader.times.time_units import to_ns
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.folder.beside.notes import text_of_notes
-from thermodata.reader.text.tables.zone_named import named_in
+from thermodata.reader.text.tables.sample.zone_named import named_in
 
 _AMOUNT = re.compile(
     r"(?P<by>\d+(?:[.,]\d+)?)\s*"

@@ -13,7 +13,7 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, is_date_text, is_time_of_day, is_zoned
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.times.zone import NAT
 

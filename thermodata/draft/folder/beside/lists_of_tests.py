@@ -18,7 +18,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.time_forms.time_pattern import DATETIME, is_date_text, is_time_of_day
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import with_count

@@ -8,7 +8,7 @@ from itertools import pairwise
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_empty, is_number, mostly, number_of
 from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.names.time_header import is_time_header, says_time
-from thermodata.reader.text.times.time_cells import belongs_to_time, names_part_of_time
+from thermodata.reader.text.times.several_cells.time_cells import belongs_to_time, names_part_of_time
 
 _WORDS = 3  # of one name of the time: 'Date and Time'
 ENOUGH = 0.9  # of the rows, by whose cells a column is one of times

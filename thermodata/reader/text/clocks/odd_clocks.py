@@ -15,8 +15,8 @@ from thermodata.reader.text.cells.time_forms.calendar_words import folded, is_wo
 from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.times.days_without_year import is_day_without_year, is_week_without_year
-from thermodata.reader.text.times.odd_stamps import fitting_formats, guess_format, is_iso_week
+from thermodata.reader.text.times.one_cell.odd_stamps import fitting_formats, guess_format, is_iso_week
+from thermodata.reader.text.times.several_cells.days_without_year import is_day_without_year, is_week_without_year
 from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day

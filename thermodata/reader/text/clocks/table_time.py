@@ -26,9 +26,9 @@ from thermodata.reader.text.clocks.time_questions import (
 from thermodata.reader.text.clocks.unit_of_numbers import unit_of_numbers
 from thermodata.reader.text.clocks.zoned_beside import beside_note
 from thermodata.reader.text.names.time_header import is_time_header, since_midnight
-from thermodata.reader.text.times.clock_words import said_clock
-from thermodata.reader.text.times.date_parts import find_parts
-from thermodata.reader.text.times.time_cells import part_question, with_parts, zone_notes
+from thermodata.reader.text.times.one_cell.clock_words import said_clock
+from thermodata.reader.text.times.several_cells.date_parts import find_parts
+from thermodata.reader.text.times.several_cells.time_cells import part_question, with_parts, zone_notes
 from thermodata.reader.times.open_questions import UNKNOWN
 
 

@@ -19,10 +19,10 @@ from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.of_text import OF_TEXT
 from thermodata.reader.text.names.time_header import is_time_header, since_midnight
-from thermodata.reader.text.times.clock_numbers import columns_of_clock
-from thermodata.reader.text.times.date_parts import find_parts
-from thermodata.reader.text.times.spans import are_spans
-from thermodata.reader.text.times.time_cells import with_parts
+from thermodata.reader.text.times.one_cell.spans import are_spans
+from thermodata.reader.text.times.several_cells.clock_numbers import columns_of_clock
+from thermodata.reader.text.times.several_cells.date_parts import find_parts
+from thermodata.reader.text.times.several_cells.time_cells import with_parts
 from thermodata.reader.times.time_units import SECONDS
 
 _HINT = "declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates"

@@ -17,10 +17,15 @@ from thermodata.reader.text.clocks.counts_of_days import count_question, excel_o
 from thermodata.reader.text.clocks.counts_of_seconds import far_question
 from thermodata.reader.text.clocks.format_question import format_question
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.clock_numbers import DAYS_OF_YEAR, days_beside, fraction_question, year_and_day
-from thermodata.reader.text.times.date_parts import declared_parts
-from thermodata.reader.text.times.gps_weeks import find_weeks
-from thermodata.reader.text.times.odd_stamps import fitting_formats, guess_format
+from thermodata.reader.text.times.one_cell.odd_stamps import fitting_formats, guess_format
+from thermodata.reader.text.times.several_cells.clock_numbers import (
+    DAYS_OF_YEAR,
+    days_beside,
+    fraction_question,
+    year_and_day,
+)
+from thermodata.reader.text.times.several_cells.date_parts import declared_parts
+from thermodata.reader.text.times.several_cells.gps_weeks import find_weeks
 from thermodata.reader.times.open_questions import UNKNOWN, unit_question
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, found_epoch
 

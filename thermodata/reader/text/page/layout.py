@@ -16,18 +16,18 @@ from thermodata.reader.text.names.declared_names import declared_names, unused_n
 from thermodata.reader.text.names.described import descriptions
 from thermodata.reader.text.names.header import split_unit, unique
 from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
-from thermodata.reader.text.page.find_groups import find_groups
 from thermodata.reader.text.page.first_data import first_data, width_of
-from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
-from thermodata.reader.text.page.from_start import with_start
-from thermodata.reader.text.page.group import Group
-from thermodata.reader.text.page.head import Head
-from thermodata.reader.text.page.header_again import repeats_of
-from thermodata.reader.text.page.labelled_head import labelled_head
-from thermodata.reader.text.page.line_up import Fit, line_up, units_by_keyword
-from thermodata.reader.text.page.lines_between import lines_between
-from thermodata.reader.text.page.misfit import refuse_misfit
-from thermodata.reader.text.page.units_misfit import refuse_units_misfit
+from thermodata.reader.text.page.header.head import Head
+from thermodata.reader.text.page.header.header_again import repeats_of
+from thermodata.reader.text.page.header.labelled_head import labelled_head
+from thermodata.reader.text.page.header.line_up import Fit, line_up, units_by_keyword
+from thermodata.reader.text.page.header.lines_between import lines_between
+from thermodata.reader.text.page.header.misfit import refuse_misfit
+from thermodata.reader.text.page.header.units_misfit import refuse_units_misfit
+from thermodata.reader.text.page.timed.find_groups import find_groups
+from thermodata.reader.text.page.timed.from_epoch import answer_of, from_epoch, stated_epoch
+from thermodata.reader.text.page.timed.from_start import with_start
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
 
 _ROWS_BELOW = 200  # of data, by which columns are told

@@ -15,7 +15,7 @@ from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, Unread, head_start, unread_start
 from thermodata.reader.text.preamble.head_words import Says
-from thermodata.reader.text.times.date_parts import row_time
+from thermodata.reader.text.times.several_cells.date_parts import row_time
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.time_units import to_ns
 from thermodata.reader.times.zone import NAT, local_to_utc_ns

@@ -19,9 +19,9 @@ from thermodata.reader.text.preamble.head_words import Says, said_by
 from thermodata.reader.text.preamble.pass_words import without_pass
 from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, tells_the_hour, with_month
 from thermodata.reader.text.preamble.zone_places import without_places
-from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.clock_letters import with_clock
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.one_cell.clock_letters import with_clock
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
 

@@ -11,7 +11,7 @@ from thermodata.reader.text.cells.time_forms.calendar_words import MONTH, WEEKDA
 from thermodata.reader.text.cells.time_forms.clock_pattern import HALF
 from thermodata.reader.text.cells.time_forms.zone_words import OFFSET, WORDS
 from thermodata.reader.text.preamble.zone_places import place_in
-from thermodata.reader.text.times.timestamp import CENTURY
+from thermodata.reader.text.times.one_cell.timestamp import CENTURY
 
 # between the parts of a date and a time of day
 _FILLING = (

@@ -17,10 +17,10 @@ from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
-from thermodata.reader.text.page.group import STREAM, Group
-from thermodata.reader.text.page.header_again import repeats_of
+from thermodata.reader.text.page.header.header_again import repeats_of
+from thermodata.reader.text.page.header.second_header import second_header
 from thermodata.reader.text.page.layout import Layout, find_layout
-from thermodata.reader.text.page.second_header import second_header
+from thermodata.reader.text.page.timed.group import STREAM, Group
 from thermodata.reader.text.preamble.begin import (
     BY_HALF,
     NOT_TAKEN,
@@ -33,15 +33,15 @@ from thermodata.reader.text.preamble.begin import (
 from thermodata.reader.text.preamble.together import begin_later_ns
 from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
-from thermodata.reader.text.tables.look_at_columns import look_at_columns
 from thermodata.reader.text.tables.row_series import with_series
-from thermodata.reader.text.tables.sampled import Sampled, still_going
+from thermodata.reader.text.tables.sample.look_at_columns import look_at_columns
+from thermodata.reader.text.tables.sample.sampled import Sampled, still_going
+from thermodata.reader.text.tables.sample.zone_named import zones_said
 from thermodata.reader.text.tables.table import Table, TimedGroup, header_lines
-from thermodata.reader.text.tables.zone_named import zones_said
-from thermodata.reader.text.times.date_parts import PART
-from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
+from thermodata.reader.text.times.one_cell.unpadded import unpadded_note
+from thermodata.reader.text.times.several_cells.date_parts import PART
+from thermodata.reader.text.times.several_cells.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.text.times.unpadded import unpadded_note
 
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 

@@ -12,9 +12,9 @@ from thermodata.reader.signals.series import Declaration, Found, Series, find_se
 from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Chunk
+from thermodata.reader.text.tables.blocks.table_rows import RowReader
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.table import Table
-from thermodata.reader.text.tables.table_rows import RowReader
 
 _HEAD, _REST = 2000, 8000  # lines that are looked at,
 _MOST_CELLS, _FEWEST = 400_000, 100  # of fewer where they are long

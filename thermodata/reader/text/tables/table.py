@@ -17,13 +17,13 @@ from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
 from thermodata.reader.text.names.header import told_alike
-from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_scales
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.rows.qualities import Qualities
-from thermodata.reader.text.times.date_parts import PART
+from thermodata.reader.text.times.several_cells.date_parts import PART
 from thermodata.reader.times.time_units import SECONDS
 
 Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header

@@ -11,10 +11,10 @@ import numpy.typing as npt
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS
-from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.days import STANDS, Days, have_days, stands
 from thermodata.reader.text.times.local_clock import DayCount
-from thermodata.reader.text.times.second_sixty import at_second_sixty, said_of_sixty
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.one_cell.second_sixty import at_second_sixty, said_of_sixty
+from thermodata.reader.text.times.several_cells.days import STANDS, Days, have_days, stands
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.times.wrapped_counter import gone_on

@@ -27,12 +27,13 @@ from thermodata.reader.text.cells.time_forms.time_pattern import (
     TIME_OF_DAY,
     TimeFormat,
 )
-from thermodata.reader.text.times import time_cells, timestamp
-from thermodata.reader.text.times.clock_letters import refuse_unread, with_clock
-from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_midnight_format
-from thermodata.reader.text.times.clock_words import CLOCKS, ask_for_minutes
-from thermodata.reader.text.times.date_parts import PART, declared_parts
-from thermodata.reader.text.times.spans import SPAN, are_spans
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.one_cell.clock_letters import refuse_unread, with_clock
+from thermodata.reader.text.times.one_cell.clock_words import CLOCKS, ask_for_minutes
+from thermodata.reader.text.times.one_cell.spans import SPAN, are_spans
+from thermodata.reader.text.times.several_cells import time_cells
+from thermodata.reader.text.times.several_cells.clock_numbers import clock_of_numbers, since_midnight_format
+from thermodata.reader.text.times.several_cells.date_parts import PART, declared_parts
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.zone import NAT
 

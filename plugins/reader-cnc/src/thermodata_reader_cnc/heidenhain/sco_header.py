@@ -13,8 +13,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.cells.values.number import is_empty, of_either_mark, to_float
-from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 
 _BLOCK = re.compile(r"^%\[([A-Za-z]+)[\s_]*(\d*)\]")

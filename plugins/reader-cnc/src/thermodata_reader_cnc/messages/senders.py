@@ -12,7 +12,7 @@ from thermodata.reader.signals.interleaved import series_columns
 from thermodata.reader.signals.series import Declaration
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.cells.values.number import to_float
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_cnc.events import GONE
 from thermodata_reader_cnc.messages.reports import Report

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from thermodata.plugin import Loss
 from thermodata.reader.text.cells.time_forms.time_pattern import OFFSET_MS, TimeFormat
 from thermodata.reader.text.cells.values.number import to_float
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.events import GONE, ISO, Event

@@ -13,7 +13,7 @@ from thermodata.errors import QuestionError, UsageError
 from thermodata.reader.signals.unit_words import is_surely_unit
 from thermodata.reader.text.cells.time_forms.time_pattern import OFFSET_MS, OFFSET_S, SINCE_A_DAY, TimeFormat
 from thermodata.reader.text.cells.values.number import is_empty, is_number
-from thermodata.reader.text.times.timestamp import parse, parse_one
+from thermodata.reader.text.times.one_cell.timestamp import parse, parse_one
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_cnc import events

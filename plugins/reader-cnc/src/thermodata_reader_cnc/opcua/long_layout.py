@@ -15,7 +15,7 @@ from thermodata.reader.text.cells.values.number import is_empty
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.cells.values.status import are_qualities, is_severity, tells_quality, zero_is_good
 from thermodata.reader.text.rows.grid import Grid
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 from thermodata_reader_cnc.opcua.long_times import Times, time_columns, time_form
 from thermodata_reader_cnc.opcua.long_words import TAGS, value_columns, value_pairs

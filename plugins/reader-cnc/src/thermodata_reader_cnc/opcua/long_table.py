@@ -25,7 +25,7 @@ from thermodata.reader.text.file.losses import NAMED
 from thermodata.reader.text.rows.footer import footer_notes, is_footer
 from thermodata.reader.text.rows.grid import BadLine
 from thermodata.reader.text.rows.typed import parse
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events

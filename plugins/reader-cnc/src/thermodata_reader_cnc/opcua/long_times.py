@@ -24,10 +24,10 @@ from thermodata.reader.text.cells.time_forms.time_pattern import (
 from thermodata.reader.text.cells.time_forms.zone_words import WORDS, stated_zone
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.preamble.zone_places import place_in
-from thermodata.reader.text.tables.zone_named import named_note
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.tables.sample.zone_named import named_note
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell.timestamp import parse, parse_one
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.text.times.timestamp import parse, parse_one
 from thermodata.reader.times.zone import NAT
 
 _KNOWN = (

@@ -18,8 +18,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.file.locate import row_at
-from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.sinumerik import trace_records

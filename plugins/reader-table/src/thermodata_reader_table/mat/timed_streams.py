@@ -12,9 +12,9 @@ from thermodata.plugin import Int1D, Source
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
-from thermodata.reader.text.page.counted_from import counted_from
+from thermodata.reader.text.page.timed.counted_from import counted_from
 from thermodata.reader.text.times import in_memory
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
 from thermodata.reader.times import time_units
 from thermodata.reader.times.wrapped_counter import may_begin_anew
 from thermodata_reader_table.mat.begun_beside import Begun, begun_beside

@@ -12,9 +12,9 @@ from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_emp
 from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.cells.time_forms.clock_pattern import says_the_hour
 from thermodata.reader.text.clocks.odd_clocks import clock_question
-from thermodata.reader.text.times.date_parts import column_times
-from thermodata.reader.text.times.days import Days, filled, have_days, is_once
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates, times_of_day
+from thermodata.reader.text.times.several_cells.date_parts import column_times
+from thermodata.reader.text.times.several_cells.days import Days, filled, have_days, is_once
 from thermodata.reader.text.times.time_formats import find_formats
 
 

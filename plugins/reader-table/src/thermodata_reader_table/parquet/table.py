@@ -15,7 +15,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Source
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
-from thermodata.reader.text.page.find_groups import period_s
+from thermodata.reader.text.page.timed.find_groups import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.in_memory import times_of_numbers
 from thermodata.reader.times.time_units import SECONDS, to_ns

@@ -16,8 +16,8 @@ from thermodata.reader.text.clocks.table_time import time_of
 from thermodata.reader.text.clocks.time_columns import column as find_column
 from thermodata.reader.text.clocks.time_columns import find_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.page.counted_from import counted_from
-from thermodata.reader.text.times.date_parts import find_parts
+from thermodata.reader.text.page.timed.counted_from import counted_from
+from thermodata.reader.text.times.several_cells.date_parts import find_parts
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered, unit_question
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, found_epoch, known_unit, with_step
 from thermodata_reader_table.parquet.columns import numbers

@@ -11,8 +11,8 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.cells.time_forms.time_pattern import TIME_OF_DAY
-from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.days import Days
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.several_cells.days import Days
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.times.zone import NAT
 

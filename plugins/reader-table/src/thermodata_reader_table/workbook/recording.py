@@ -18,7 +18,7 @@ from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.signals.series import Declaration
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS
 from thermodata.reader.text.page.layout import Layout
-from thermodata.reader.text.page.one_clock import one_clock
+from thermodata.reader.text.page.timed.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, ROWS, FirstTimes
 from thermodata.reader.text.preamble.together import begin_later_ns
 from thermodata.reader.text.times.in_memory import Stamps

@@ -13,8 +13,8 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Int1D
-from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.times.open_questions import ASK, UNKNOWN, unanswered
 from thermodata.reader.times.zone import NAT

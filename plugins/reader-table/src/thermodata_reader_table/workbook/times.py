@@ -12,12 +12,9 @@ import numpy as np
 from thermodata.plugin import Int1D, Source
 from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
-from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.preamble.head_start import ORDERS
-from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_midnight_format
-from thermodata.reader.text.times.date_parts import column_times, declared_parts
-from thermodata.reader.text.times.days import NOTE, is_once
 from thermodata.reader.text.times.in_memory import (
     Stamps,
     times_of_dates,
@@ -25,7 +22,10 @@ from thermodata.reader.text.times.in_memory import (
     times_of_numbers,
     times_of_texts,
 )
-from thermodata.reader.text.times.time_cells import belongs_to_time
+from thermodata.reader.text.times.several_cells.clock_numbers import clock_of_numbers, since_midnight_format
+from thermodata.reader.text.times.several_cells.date_parts import column_times, declared_parts
+from thermodata.reader.text.times.several_cells.days import NOTE, is_once
+from thermodata.reader.text.times.several_cells.time_cells import belongs_to_time
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.times.zone import NAT

@@ -15,7 +15,7 @@ from thermodata.reader.text.cells.cell import is_dated, mostly
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts, names_scale, scale_question
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.page.counted_from import counted_from
+from thermodata.reader.text.page.timed.counted_from import counted_from
 from thermodata.reader.text.times.in_memory import Stamps, times_of_numbers, times_of_texts
 from thermodata.reader.times.since import count_in
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, known_unit

@@ -11,8 +11,8 @@ import numpy as np
 from thermodata.plugin import Source
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.clocks.time_questions import question_of_weeks
-from thermodata.reader.text.times.gps_weeks import find_weeks, may_be_of_weeks, reads_weeks, utc_of_weeks
 from thermodata.reader.text.times.in_memory import Stamps
+from thermodata.reader.text.times.several_cells.gps_weeks import find_weeks, may_be_of_weeks, reads_weeks, utc_of_weeks
 from thermodata_reader_crio.tdms.channels.channel import Channel
 from thermodata_reader_crio.tdms.raw.values import read
 from thermodata_reader_crio.tdms.times.time_channel import TimeChannel

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.text.times.gps_weeks import find_weeks, seconds_of_weeks
+from thermodata.reader.text.times.several_cells.gps_weeks import find_weeks, seconds_of_weeks
 from thermodata_reader_table.mat.planned.stream_plan import LOOK, Plan, Scope, TimeVector, upwards
 from thermodata_reader_table.mat.tree import Numbers
 

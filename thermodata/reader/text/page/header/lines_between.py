@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.values.number import of_either_mark
 from thermodata.reader.text.names.header_rows import rows_between, texts_of
-from thermodata.reader.text.page.head import Head
+from thermodata.reader.text.page.header.head import Head
 from thermodata.schema.units.scale import with_power_of_ten
 
 _FACTOR = re.compile(

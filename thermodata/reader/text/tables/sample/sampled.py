@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from thermodata.reader.text.cells.values.quotes import clean
-from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.tables.table import TimedGroup
-from thermodata.reader.text.times.date_parts import column_times, row_time
-from thermodata.reader.text.times.days import filled
+from thermodata.reader.text.times.several_cells.date_parts import column_times, row_time
+from thermodata.reader.text.times.several_cells.days import filled
 from thermodata.reader.times.zone import NAT
 
 _FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load

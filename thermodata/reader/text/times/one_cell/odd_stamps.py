@@ -9,7 +9,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.cells.time_forms.calendar_words import letters_of
 from thermodata.reader.text.cells.time_forms.zone_words import without_zone
-from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
 
 _HALF = re.compile(r"(?i)[ap]m")

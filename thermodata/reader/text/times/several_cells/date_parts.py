@@ -21,9 +21,9 @@ from thermodata.reader.text.cells.time_forms.clock_pattern import HALF
 from thermodata.reader.text.cells.time_forms.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.text.cells.values.arrow import text_array
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.clock_numbers import days_of_years
-from thermodata.reader.text.times.gps_weeks import reads_weeks
+from thermodata.reader.text.times.one_cell import timestamp
+from thermodata.reader.text.times.several_cells.clock_numbers import days_of_years
+from thermodata.reader.text.times.several_cells.gps_weeks import reads_weeks
 from thermodata.reader.times.zone import NAT
 
 _WORDS = {

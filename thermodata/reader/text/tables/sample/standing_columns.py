@@ -8,9 +8,9 @@ from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.rows.changed_cells import KEY, declared_standing, find_standing
 from thermodata.reader.text.rows.quality_columns import Pairs
-from thermodata.reader.text.tables.sampled import Sampled
+from thermodata.reader.text.tables.sample.sampled import Sampled
 from thermodata.reader.text.tables.table import TimedGroup
-from thermodata.reader.text.times.date_parts import row_time
+from thermodata.reader.text.times.several_cells.date_parts import row_time
 from thermodata.reader.times.zone import NAT
 
 

@@ -8,7 +8,7 @@ from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import is_time_header, says_time
 from thermodata.reader.text.names.units_row import mostly_units
-from thermodata.reader.text.page.head import Head
+from thermodata.reader.text.page.header.head import Head
 from thermodata.reader.times.time_units import known_unit
 
 

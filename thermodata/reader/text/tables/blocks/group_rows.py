@@ -13,7 +13,7 @@ from thermodata.reader.text.cells.values.number import why_none
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.grid import Rows
-from thermodata.reader.text.tables.row_clock import RowClock
+from thermodata.reader.text.tables.blocks.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.flag import Flag
 

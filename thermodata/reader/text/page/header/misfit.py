@@ -19,8 +19,8 @@ from thermodata.reader.text.clocks.names_of_time import (
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.header_rows import place_of_names, texts_of
 from thermodata.reader.text.names.time_header import says_time
-from thermodata.reader.text.page.head import Head
-from thermodata.reader.text.times.time_cells import belongs_to_time
+from thermodata.reader.text.page.header.head import Head
+from thermodata.reader.text.times.several_cells.time_cells import belongs_to_time
 
 _DAY_WORD = re.compile(
     r"(?i)dat[eu]m?|dato|dátum|data|fecha|дата|day|tag|dag|den|jour|giorno|d[ií]a|dzień|dzien|nap|日期|日付|날짜"

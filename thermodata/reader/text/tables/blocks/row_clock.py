@@ -13,9 +13,9 @@ from thermodata.reader.text.cells.values.column import Values
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.tables.table import TimedGroup
-from thermodata.reader.text.times.date_parts import column_times
-from thermodata.reader.text.times.days import Days, have_days
 from thermodata.reader.text.times.local_clock import DayCount, LocalClock
+from thermodata.reader.text.times.several_cells.date_parts import column_times
+from thermodata.reader.text.times.several_cells.days import Days, have_days
 from thermodata.reader.times.time_units import EPOCHS, Epoch, to_ns
 from thermodata.reader.times.wrapped_counter import Counter
 from thermodata.reader.times.zone import NAT

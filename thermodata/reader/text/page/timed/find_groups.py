@@ -12,7 +12,7 @@ from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.table_time import TableTime, time_of
 from thermodata.reader.text.clocks.time_columns import column
 from thermodata.reader.text.clocks.time_groups import Span, spans
-from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.timed.group import STREAM, Group
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.time_units import EPOCHS, SECONDS
 

@@ -20,11 +20,11 @@ from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.quality_columns import values_of
 from thermodata.reader.text.rows.typed import parse
-from thermodata.reader.text.tables.another_header import another_header, last_repeated
-from thermodata.reader.text.tables.group_rows import Complaint, GroupRows, Parsed
-from thermodata.reader.text.tables.row_clock import RowClock
+from thermodata.reader.text.tables.blocks.another_header import another_header, last_repeated
+from thermodata.reader.text.tables.blocks.group_rows import Complaint, GroupRows, Parsed
+from thermodata.reader.text.tables.blocks.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table
-from thermodata.reader.text.times.second_sixty import SecondsSixty
+from thermodata.reader.text.times.one_cell.second_sixty import SecondsSixty
 from thermodata.reader.times.zone import NAT
 
 _BLOCK_VALUES = 1_000_000

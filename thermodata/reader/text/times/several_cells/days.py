@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TimeFormat
-from thermodata.reader.text.times.date_parts import row_time
+from thermodata.reader.text.times.several_cells.date_parts import row_time
 from thermodata.reader.times.zone import NAT
 
 _SPARSE = 0.5  # of the rows: fewer have a date

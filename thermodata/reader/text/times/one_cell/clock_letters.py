@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
-from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.one_cell.odd_stamps import guess_format
 
 _CLOCK = re.compile(
     r"(?P<between>\D*)\d{1,2}:\d{2}(?P<seconds>:\d{2})?(?:(?P<mark>[.,:])\d{1,9})?(?P<half>\s*[AaPp][Mm])?(?P<zone>\s*.+)?",

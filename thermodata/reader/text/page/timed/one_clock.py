@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.times.zone import NAT
 

@@ -13,10 +13,10 @@ from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_
 from thermodata.reader.text.names.unit_column import paired_units, unit_column, unit_column_note
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.qualities import Qualities, find_qualities
-from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
-from thermodata.reader.text.tables.sampled import Sampled
-from thermodata.reader.text.tables.standing_columns import standing_columns
-from thermodata.reader.text.tables.told_thousands import told_thousands
+from thermodata.reader.text.tables.sample.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
+from thermodata.reader.text.tables.sample.sampled import Sampled
+from thermodata.reader.text.tables.sample.standing_columns import standing_columns
+from thermodata.reader.text.tables.sample.told_thousands import told_thousands
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 
 

@@ -10,7 +10,7 @@ from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
-from thermodata.reader.text.page.header_again import repeats_of
+from thermodata.reader.text.page.header.header_again import repeats_of
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.units.spelling import spelled

@@ -14,7 +14,7 @@ from thermodata.reader.text.cells.first_rows import FirstRows
 from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.clocks.time_questions import likely_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.preamble.epoch_said import SaidEpoch, epoch_said
 from thermodata.reader.times.since import PTP
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, is_logged

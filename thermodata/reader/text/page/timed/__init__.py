@@ -1,0 +1,1 @@
+"""Which columns of a page share one time, and what that counts from."""

@@ -1,0 +1,1 @@
+"""The rows of a table in blocks, with times, flags and places."""
