@@ -10,9 +10,10 @@ import pytest
 
 from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_of_compared, lost_sentence
+from thermodata.report.page.drawn import ranked_spots
 from thermodata.report.page.error_rows import error_rows
 from thermodata.report.page.headline import sentences
-from thermodata.report.page.page import ranked_spots, render
+from thermodata.report.page.page import render
 from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.words.of_response import of_response, some_of, worst_of
 from thermodata.schema.answers.diagnosis import ResponseLeft

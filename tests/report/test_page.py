@@ -17,7 +17,8 @@ from thermodata.report.charts.figures import part_chart, points_for, residual_sc
 from thermodata.report.collected.data import ReportData
 from thermodata.report.page.error_rows import error_rows, headline_error
 from thermodata.report.page.headline import error_sentence, headline, sentences
-from thermodata.report.page.page import render, what_is_left
+from thermodata.report.page.left_over import what_is_left
+from thermodata.report.page.page import render
 from thermodata.report.words.glossary import ERRORS
 from thermodata.schema.answers.candidate import LeftOut
 from thermodata.schema.answers.result import Check, Parameter
@@ -323,7 +324,7 @@ def test_a_minus_is_one_sign_in_values_and_ranges(data: ReportData) -> None:
 def test_a_state_that_the_residual_does_not_go_with_is_named_and_not_drawn(data: ReportData) -> None:
     states = [SimpleNamespace(state=name, correlation=r) for name, r in (("T_hall", 0.004), ("feed", -0.42))]
     seen = SimpleNamespace(paths=[], not_shown=[], ljung_box=[], states=states)
-    with mock.patch("thermodata.report.page.page.system_charts", return_value={}):
+    with mock.patch("thermodata.report.page.drawn.system_charts", return_value={}):
         page = render(dataclasses.replace(data, systems=(cast(Any, seen),)))
     assert "feed: r −0.42" in page
     assert "T_hall: r" not in page
