@@ -17,21 +17,16 @@ one channel and its own samples, and so in `derive` only: whoever else reads an 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, cast
 
-import numpy as np
-
 from thermodata.calibration.expression import nodes
-from thermodata.calibration.expression.evaluation import Evaluation, Logic, Number, logic, number, rate_of
+from thermodata.calibration.expression.expression import Expression
 from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
-from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.schema.agreed.comparators import COMPARE, Comparator
-from thermodata.schema.units.conversion import linear_conversion
-from thermodata.schema.units.unit import is_unit, normal_unit
+from thermodata.schema.units.unit import is_unit
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -40,75 +35,6 @@ _TOKEN = re.compile(
 _UNIT = re.compile(r"[ \t]*(?P<unit>N[ ]m\b|1/[^\W\d]\w*|[°%]?(?:[^\W\d][\w°²³⁻¹^·]*(?:-\d)?)?(?:/[^\W\d][\w²³^]*)*)")
 _WORDS = frozenset({"and", "or", "not", "abs"})
 _LONGEST, _DEEPEST = 2000, 60
-
-
-@dataclass(frozen=True, slots=True)
-class Expression:
-    """A parsed expression. names: the channels that it reads; rated: those among them whose rate it takes, which
-    `values` hold by `rate_of` beside them. logical: whether it gives true or false."""
-
-    text: str
-    tree: Node
-    names: frozenset[str]
-    rated: frozenset[str] = frozenset()
-
-    @property
-    def logical(self) -> bool:
-        return isinstance(self.tree, nodes.Comparison | nodes.Every | nodes.AnyOf | nodes.Not)
-
-    def evaluate(self, values: Mapping[str, Array], units: Mapping[str, str] | None = None) -> Array:
-        """Bool (a missing value is never true) or float64, in the unit that `unit` tells; in the shape of the values.
-
-        units: channel -> unit. Without them, expressions with units in literals are refused (UsageError).
-        """
-        result = Evaluation(values, units or {}, self.text).of(self.tree)
-        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
-        if isinstance(result, Logic):
-            return np.broadcast_to(np.asarray(result.yes, dtype=bool), shape).copy()
-        return np.broadcast_to(np.asarray(result.value, dtype=np.float64), shape).copy()
-
-    def evaluate_bool(self, values: Mapping[str, Array], units: Mapping[str, str] | None = None) -> Bool1D:
-        """As `evaluate`; a number counts as true where it is known and not 0."""
-        result = logic(Evaluation(values, units or {}, self.text).of(self.tree))
-        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
-        return np.broadcast_to(np.asarray(result.yes, dtype=bool), shape).copy()
-
-    def evaluate_in(self, values: Mapping[str, Array], units: Mapping[str, str], target_unit: str) -> Float1D:
-        """Float64 in `target_unit`: (dY_high - dY_low) / 100 mm, from um, in urad. UsageError where it can't be."""
-        result = number(Evaluation(values, units, self.text).of(self.tree))
-        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
-        factor, offset = 1.0, 0.0
-        if not result.bare and result.unit is not None:
-            factor, offset = self._conversion(result, target_unit)
-        value = np.asarray(result.value, dtype=np.float64) * factor + offset
-        return np.broadcast_to(value, shape).copy()
-
-    def unit(self, units: Mapping[str, str]) -> str | None:
-        """The unit that `evaluate` gives with these units of the channels; "" for none, None for unknown."""
-        keys = (*self.names, *map(rate_of, self.rated))
-        result = number(Evaluation({key: np.zeros(1) for key in keys}, units, self.text).of(self.tree))
-        return result.unit
-
-    def _conversion(self, result: Number, target: str) -> tuple[float, float]:
-        unit = result.unit or "1"
-        if (normal_unit(unit) == "degC") != (normal_unit(target) == "degC"):
-            raise UsageError(
-                f"the expression gives {unit}, the channel is in {target}",
-                where=f"expression '{self.text}'",
-                expected=target,
-                got=unit,
-                hint="a difference of two temperatures is of quantity temperature_difference (K)",
-            )
-        try:
-            return linear_conversion(unit, target)
-        except UsageError as error:
-            raise UsageError(
-                f"the expression gives {unit}, the channel is in {target}",
-                where=f"expression '{self.text}'",
-                expected=target,
-                got=unit,
-                hint="correct the expression or the channel's quantity",
-            ) from error
 
 
 @lru_cache(maxsize=1024)
@@ -295,6 +221,3 @@ class _Parser:
                 hint=f"write '{value:g} * {self.token}'",
             )
         return nodes.Constant(value, "")
-
-
-__all__ = ["Expression", "parse"]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from thermodata.calibration.expression.parser import Expression, parse
+from thermodata.calibration.expression.expression import Expression
+from thermodata.calibration.expression.parser import parse
 from thermodata.effect.binding import ANY
 from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect, Need
