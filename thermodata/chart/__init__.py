@@ -1,4 +1,4 @@
-"""Charts: what is drawn as plain values (`spec`), fewer points (`decimate`), and the one script that draws them all.
+"""Charts: what is drawn as plain values (`spec`, of `parts`), fewer points (`decimate`), and the script that draws it.
 
 Both pages of this program use it, the saved report and the local workbench; see docs/charts.md.
 """
@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from thermodata.chart.colour import effect_styles
     from thermodata.chart.decimate import columns_in, min_max, shortened
     from thermodata.chart.pack import packed, script_json
-    from thermodata.chart.spec import Axis, Band, Chart, HeatMap, Limit, Marks, Panel, Row, Series, Span, Strip
+    from thermodata.chart.parts import Axis, Band, Limit, Marks, Panel, Row, Series, Span, Strip
+    from thermodata.chart.spec import Chart, HeatMap
 
 __all__ = [
     "SCRIPTS",
@@ -48,6 +49,7 @@ __getattr__ = on_demand(
         "colour": "effect_styles",
         "decimate": "columns_in min_max shortened",
         "pack": "packed script_json",
-        "spec": "Axis Band Chart HeatMap Limit Marks Panel Row Series Span Strip",
+        "parts": "Axis Band Limit Marks Panel Row Series Span Strip",
+        "spec": "Chart HeatMap",
     },
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from thermodata.chart.spec import Band
+from thermodata.chart.parts import Band
 from thermodata.schema.agreed.certainty import Z95
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.chart.colour import EFFECTS
-from thermodata.chart.spec import Axis, Chart, Panel, Series
+from thermodata.chart.parts import Axis, Panel, Series
+from thermodata.chart.spec import Chart
 from thermodata.plugin import Float1D, Int1D
 from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, CandidateCourse

@@ -6,7 +6,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Axis, Chart, Panel, Series, Span
+from thermodata.chart.parts import Axis, Panel, Series, Span
+from thermodata.chart.spec import Chart
 from thermodata.draft.probes.jump_seen import JumpSeen, jump_seen
 from thermodata.draft.writing.questions import questions
 from thermodata.errors import UsageError

@@ -11,7 +11,8 @@ from starlette.responses import Response, StreamingResponse
 
 from thermodata.chart.colour import effect_styles
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Axis, Chart, Panel, Series
+from thermodata.chart.parts import Axis, Panel, Series
+from thermodata.chart.spec import Chart
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch

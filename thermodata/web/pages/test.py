@@ -11,7 +11,8 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Chart, Strip
+from thermodata.chart.parts import Strip
+from thermodata.chart.spec import Chart
 from thermodata.errors import UsageError
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role

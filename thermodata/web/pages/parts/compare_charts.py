@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.chart.colour import EFFECTS
-from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
+from thermodata.chart.parts import Axis, Limit, Panel, Series
+from thermodata.chart.spec import Chart, HeatMap
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.store import Store

@@ -8,7 +8,8 @@ import numpy as np
 
 from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.colour import effect_styles
-from thermodata.chart.spec import Axis, Band, Chart, Panel, Series
+from thermodata.chart.parts import Axis, Band, Panel, Series
+from thermodata.chart.spec import Chart
 from thermodata.plugin import Float1D
 from thermodata.view.curves.contributions import Contributions, Effect
 

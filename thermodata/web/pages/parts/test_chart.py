@@ -9,7 +9,8 @@ import numpy as np
 
 from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.colour import EFFECTS, effect_styles
-from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
+from thermodata.chart.parts import Axis, Band, Panel, Row, Series, Span, Strip, Style
+from thermodata.chart.spec import Chart
 from thermodata.plugin import Float1D
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.schema.units.unit import difference_unit
