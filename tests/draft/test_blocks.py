@@ -157,7 +157,7 @@ def test_whole_numbers_in_few_blocks_are_names_of_tests(tmp_path: Path, say: Say
 
 
 def test_a_file_for_which_no_time_is_left_is_asked(tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("thermodata.draft.folder.scan._SAMPLES_S", -1.0)
+    monkeypatch.setattr("thermodata.draft.folder.look._SAMPLES_S", -1.0)
     table(tmp_path / "all.csv", "test", ("A", "B"))
     assert [t.window for t in drafted(tmp_path, say).tests] == [None]
     assert "may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")

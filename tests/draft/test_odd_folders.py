@@ -254,7 +254,7 @@ def test_files_whose_values_nobody_had_time_for_are_said(
     said = "2 files were opened, and no values looked at"
     assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
     (tmp_path / "campaign.yaml").unlink()
-    monkeypatch.setattr("thermodata.draft.folder.scan._SAMPLES_S", -1.0)
+    monkeypatch.setattr("thermodata.draft.folder.look._SAMPLES_S", -1.0)
     found = say("init", tmp_path)
     assert said in found.out + found.err + (tmp_path / "campaign.yaml").read_text()
 

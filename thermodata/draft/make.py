@@ -9,7 +9,8 @@ from pathlib import Path
 from thermodata.draft.campaign.parts import Draft
 from thermodata.draft.campaign.plan import plan
 from thermodata.draft.files.letters_of_files import encoding_declared_before
-from thermodata.draft.folder.scan import Progress, scan
+from thermodata.draft.folder.look import Progress
+from thermodata.draft.folder.scan import scan
 from thermodata.draft.times.zones_before import zones_before
 from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
