@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.calibration.quality.column import ANALOG
 from thermodata.calibration.quality.concise import concise
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.errors import ThermodataError
@@ -19,10 +17,13 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.tidy.flags import windows
 from thermodata.store.tidy.flags.between import Verdict
+from thermodata.store.tidy.flags.changes import Changes
+from thermodata.store.tidy.flags.cuts import ahead, cuts
 from thermodata.store.tidy.flags.event import Event
 from thermodata.store.tidy.flags.measured_alone import DOUBTED, cleared
 from thermodata.store.tidy.flags.measuring import Stretches, find_stretches, lasts, measures, said
 from thermodata.store.tidy.flags.not_measuring import Activity, join_while_not_measuring
+from thermodata.store.tidy.flags.releases import Releases
 from thermodata.store.tidy.flags.standing import join_while_standing
 from thermodata.store.tidy.flags.trimmed import Trimmed
 from thermodata.store.tidy.flags.windows import Joined
@@ -30,7 +31,6 @@ from thermodata.store.tidy.plan.plan import SCHEDULE, Bound
 from thermodata.store.tidy.values.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.values.series import Member, TestSeries
 
-_T = TypeVar("_T")
 _PERIOD_ROWS = 1_000_000
 
 
@@ -57,7 +57,10 @@ class Flagged:
     _untold: bool = False  # `measuring` can't be evaluated: what it would mask is not known, so nothing counts
     _trimmed: Trimmed = field(default_factory=Trimmed)
     _kept: dict[str, Stretches] = field(default_factory=dict)
-    _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
+    _releases: Releases = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._releases = Releases(self.series, self.stop)
 
     def chunks(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """(first row, times, channels with all their flags) of chunks of so many rows; none crosses a border."""
@@ -90,12 +93,12 @@ class Flagged:
         self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
     ) -> Iterator[tuple[Chunk, dict[str, Column]]]:
         if self.member[0] == SCHEDULE:
-            for a, b in _cuts(self.start, self.stop, rows, borders):
+            for a, b in cuts(self.start, self.stop, rows, borders):
                 chunk = self._chunk(a, b)
                 yield chunk, calibrated(chunk, self.bounds, self.problems, pool)
         elif len(self.bounds) <= windows.MOST_COLUMNS:
             for chunk, columns, first, stop in self._windows(self.bounds, rows, pool):
-                for a, b in _cuts(first, stop, rows, borders):
+                for a, b in cuts(first, stop, rows, borders):
                     yield chunk.part(a, b), {n: c.part(a - first, b - first) for n, c in columns.items()}
         else:
             yield from self._wide(rows, borders, pool)
@@ -115,9 +118,9 @@ class Flagged:
         def load(a: int) -> tuple[Chunk, dict[str, Column], dict[str, Column]]:
             chunk = self._chunk(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)
             columns = calibrated(chunk, bounds, self.problems, pool)
-            return chunk, columns, self._with_releases(columns, a + size, chunk.stop)
+            return chunk, columns, self._releases.ahead_of(columns, a + size, chunk.stop)
 
-        for a, (chunk, columns, seen) in _ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
+        for a, (chunk, columns, seen) in ahead(load, range(self.start, self.stop, size), self._may_read_ahead()):
             b = min(a + size, self.stop)
             low = chunk.start
             flags = joined.add(chunk.t_ns, seen, a - low, b - low)
@@ -130,43 +133,6 @@ class Flagged:
             yield chunk, {n: Column(c.bound, c.values, flags[n]) for n, c in own.items()}, a, b
         self._judged += joined.events
 
-    def _with_releases(self, columns: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
-        """The channels of a window that ends at row `stop`; one that stands still from row `own` to there ends with
-        the value that it takes when it moves again: whether a reading was held shows in that step."""
-        seen = dict(columns)
-        if own >= stop:
-            return seen
-        for name, column in columns.items():
-            x = column.values
-            still = x[own - stop :]
-            if (
-                x.dtype.kind == "f"
-                and column.bound.channel.quantity in ANALOG
-                and len(still) > 1
-                and still[0] == still[-1]
-                and bool((still == still[0]).all())
-            ):
-                value = self._release(column.bound, float(still[0]), stop)
-                if value is not None:
-                    x = x.copy()
-                    x[-1] = value
-                    seen[name] = replace(column, values=x)
-        return seen
-
-    def _release(self, bound: Bound, value: float, row: int) -> float | None:
-        """The first value from `row` on that is another one; None where there is none."""
-        known = self._moves.get(bound.name)
-        if known is None or known[0] < row:
-            known = (self.stop, None)
-            for a, b in _cuts(row, self.stop, windows.WINDOW_ROWS // 4, ()):
-                x = self.series.values(bound, a, b)[0]
-                other = np.flatnonzero(x != value)
-                if other.size:
-                    known = (a + int(other[0]), float(x[other[0]]))
-                    break
-            self._moves[bound.name] = known
-        return known[1]
-
     def _may_read_ahead(self) -> bool:
         # `measuring` may look into any stream, and timelines aren't for several threads
         return self.series.plan.test.measuring is None
@@ -175,30 +141,22 @@ class Flagged:
         self, rows: int, borders: Sequence[int], pool: ThreadPoolExecutor
     ) -> Iterator[tuple[Chunk, dict[str, Column]]]:
         """Judges some columns after the other, keeps where their flags change, and then reads all side by side."""
-        changes: dict[str, tuple[list[Array], list[Array]]] = {}
+        changes = Changes()
         for i in range(0, len(self.bounds), windows.MOST_COLUMNS):
             some = self.bounds[i : i + windows.MOST_COLUMNS]
             before = len(self._judged)
             for _, columns, first, _ in self._windows(some, rows, pool):
                 for name, column in columns.items():
-                    at = np.concatenate([[0], np.flatnonzero(column.flags[1:] != column.flags[:-1]) + 1])
-                    kept = changes.setdefault(name, ([], []))
-                    kept[0].append(first + at)
-                    kept[1].append(column.flags[at])
+                    changes.add(name, first, column.flags)
             if i:  # what concerns the whole stream was said with the first columns
                 self._judged[before:] = [e for e in self._judged[before:] if e.channel is not None]
-        joined = {n: (np.concatenate(a), np.concatenate(f)) for n, (a, f) in changes.items()}
-        changes.clear()
-        for a, b in _cuts(self.start, self.stop, rows, borders):
+        changes.join()
+        for a, b in cuts(self.start, self.stop, rows, borders):
             chunk = self._chunk(a, b)
             columns = calibrated(chunk, self.bounds, self.problems, pool)
             for name, column in columns.items():
-                if name not in joined:
-                    continue
-                at, flags = joined[name]
-                low, high = int(np.searchsorted(at, a, side="right")) - 1, int(np.searchsorted(at, b))
-                lengths = np.diff(np.concatenate([[a], at[low + 1 : high], [b]]))
-                column.flags = np.repeat(flags[low:high], lengths)
+                if name in changes:
+                    column.flags = changes.between(name, a, b)
             yield chunk, columns
 
     def _chunk(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Chunk:
@@ -265,7 +223,7 @@ class Flagged:
         for bound in (b for b in self.bounds if b.name in names):
 
             def parts(bound: Bound = bound) -> Iterator[tuple[int, Int1D, Array]]:
-                for a, b in _cuts(self.start, self.stop, rows, ()):
+                for a, b in cuts(self.start, self.stop, rows, ()):
                     chunk = self._chunk(a, b, [bound])
                     columns = calibrated(chunk, [bound], [], pool)
                     if columns:
@@ -275,26 +233,3 @@ class Flagged:
             if spec.in_range != "in_range":
                 return dict.fromkeys(names, stretches[bound.name])  # says nothing of the channel itself
         return stretches
-
-
-def _cuts(start: int, stop: int, rows: int, borders: Sequence[int]) -> Iterator[tuple[int, int]]:
-    a = start
-    while a < stop:
-        b = min([a + rows - (a - start) % rows, stop, *(x for x in borders if x > a)])
-        yield a, b
-        a = b
-
-
-def _ahead(load: Callable[[int], _T], places: Sequence[int], ahead: bool) -> Iterator[tuple[int, _T]]:
-    """(place, what is loaded there), each loaded while the one before is worked on."""
-    if not ahead or len(places) < 2:
-        yield from ((place, load(place)) for place in places)
-        return
-    with ThreadPoolExecutor(1) as reader:
-        coming = reader.submit(load, places[0])
-        for i, place in enumerate(places):
-            loaded = coming.result()
-            if i + 1 < len(places):
-                coming = reader.submit(load, places[i + 1])
-            yield place, loaded
-            del loaded
