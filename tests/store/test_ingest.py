@@ -366,7 +366,7 @@ def test_a_long_stream_goes_piece_by_piece_with_the_same_values(
 
     from thermodata.store.base import encoder
     from thermodata.store.raw import writer
-    from thermodata.store.tidy.flags import windows
+    from thermodata.store.tidy.flags.in_windows import windows
 
     whole = Store(tmp_path / "whole", create=True)
     ingest(whole, campaign)

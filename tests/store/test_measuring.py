@@ -18,8 +18,8 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.raw import writer
-from thermodata.store.tidy.flags import windows
-from thermodata.store.tidy.flags.measuring import find_stretches
+from thermodata.store.tidy.flags.in_windows import windows
+from thermodata.store.tidy.flags.measured.measuring import find_stretches
 
 
 @settings(max_examples=60, deadline=None)

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.calibration.quality.event import QualityEvent
-from thermodata.store.tidy.flags.not_measuring import ONLY, Activity, join_while_not_measuring
-from thermodata.store.tidy.flags.standing import join_while_standing
+from thermodata.store.tidy.flags.measured.not_measuring import ONLY, Activity, join_while_not_measuring
+from thermodata.store.tidy.flags.measured.standing import join_while_standing
 
 
 def activity(*phases: tuple[int, int], n: int = 1000, piece: int = 37) -> Activity:

@@ -17,7 +17,7 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.ingest.summary import IngestSummary
-from thermodata.store.tidy.flags import windows
+from thermodata.store.tidy.flags.in_windows import windows
 from thermodata.store.trace.lineage import trace
 from thermodata.store.trace.replan import read_series
 from thermodata.view import load_dataset

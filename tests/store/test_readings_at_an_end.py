@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.calibration.quality.ends.range import ends_of_ranges
 from thermodata.calibration.quality.ends.still import Reading
-from thermodata.store.tidy.flags.readings import reading_with
+from thermodata.store.tidy.flags.beside.readings import reading_with
 from thermodata.store.tidy.values.chunk import Column
 
 LIMIT = 30.125

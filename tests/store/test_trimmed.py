@@ -7,7 +7,7 @@ import pytest
 
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.schema.flag import Flag
-from thermodata.store.tidy.flags.trimmed import Trimmed
+from thermodata.store.tidy.flags.measured.trimmed import Trimmed
 
 SPIKE, HELD = np.uint16(Flag.SPIKE), np.uint16(Flag.HELD)
 

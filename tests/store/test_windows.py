@@ -17,8 +17,8 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.raw import writer
-from thermodata.store.tidy.flags import windows
-from thermodata.store.tidy.flags.windows import Joined
+from thermodata.store.tidy.flags.in_windows import windows
+from thermodata.store.tidy.flags.in_windows.windows import Joined
 from thermodata.store.tidy.plan.plan import Bound
 from thermodata.store.tidy.values.chunk import Column
 

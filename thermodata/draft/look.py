@@ -24,8 +24,8 @@ from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.units.quantity import STATES, canonical
-from thermodata.store.tidy.flags.between import HELD
-from thermodata.store.tidy.flags.readings import reading_with
+from thermodata.store.tidy.flags.beside.between import HELD
+from thermodata.store.tidy.flags.beside.readings import reading_with
 
 _MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
 _MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond

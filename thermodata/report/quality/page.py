@@ -15,7 +15,7 @@ from thermodata.report.words.causes import Cause, by_cause
 from thermodata.report.words.numbers import duration, typeset
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 from thermodata.schema.words.sentences import counted
-from thermodata.store.tidy.flags.not_measuring import ONLY
+from thermodata.store.tidy.flags.measured.not_measuring import ONLY
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView

@@ -31,7 +31,7 @@ from thermodata.store.tidy.clock.cut_short import cut_short
 from thermodata.store.tidy.clock.lent import dated_sources, lent
 from thermodata.store.tidy.clock.source_clock import Clock, Span, span
 from thermodata.store.tidy.clock_offsets import clocks_of
-from thermodata.store.tidy.flags.between import Verdict, verdicts
+from thermodata.store.tidy.flags.beside.between import Verdict, verdicts
 from thermodata.store.tidy.flags.event import event_of
 from thermodata.store.tidy.flags.overrule import idle, met
 from thermodata.store.tidy.keys import ChannelTexts, member_key

@@ -16,7 +16,7 @@ from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.writer import group_rows
-from thermodata.store.tidy.flags.between import Sampler, Verdict
+from thermodata.store.tidy.flags.beside.between import Sampler, Verdict
 from thermodata.store.tidy.flags.event import Event
 from thermodata.store.tidy.flags.flagged import Flagged
 from thermodata.store.tidy.flags.overrule import overrule, overruled, rules_of

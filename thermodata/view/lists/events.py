@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch
-from thermodata.store.tidy.flags.not_measuring import ONLY
+from thermodata.store.tidy.flags.measured.not_measuring import ONLY
 from thermodata.view.lists.not_measured import not_measured
 
 if TYPE_CHECKING:

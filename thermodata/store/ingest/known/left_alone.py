@@ -15,7 +15,7 @@ from typing import Any
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.calibration.quality.ends.still import Reading
 from thermodata.store.tidy.clock.source_clock import Clock
-from thermodata.store.tidy.flags.between import Known, Verdict, levels_of
+from thermodata.store.tidy.flags.beside.between import Known, Verdict, levels_of
 
 Row = dict[str, Any]
 _NO_VERDICT = Verdict()

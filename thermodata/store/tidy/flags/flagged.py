@@ -15,18 +15,18 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import MEASURED
-from thermodata.store.tidy.flags import windows
-from thermodata.store.tidy.flags.between import Verdict
-from thermodata.store.tidy.flags.changes import Changes
-from thermodata.store.tidy.flags.cuts import ahead, cuts
+from thermodata.store.tidy.flags.beside.between import Verdict
 from thermodata.store.tidy.flags.event import Event
-from thermodata.store.tidy.flags.measured_alone import DOUBTED, cleared
-from thermodata.store.tidy.flags.measuring import Stretches, find_stretches, lasts, measures, said
-from thermodata.store.tidy.flags.not_measuring import Activity, join_while_not_measuring
-from thermodata.store.tidy.flags.releases import Releases
-from thermodata.store.tidy.flags.standing import join_while_standing
-from thermodata.store.tidy.flags.trimmed import Trimmed
-from thermodata.store.tidy.flags.windows import Joined
+from thermodata.store.tidy.flags.in_windows import windows
+from thermodata.store.tidy.flags.in_windows.changes import Changes
+from thermodata.store.tidy.flags.in_windows.cuts import ahead, cuts
+from thermodata.store.tidy.flags.in_windows.releases import Releases
+from thermodata.store.tidy.flags.in_windows.windows import Joined
+from thermodata.store.tidy.flags.measured.measured_alone import DOUBTED, cleared
+from thermodata.store.tidy.flags.measured.measuring import Stretches, find_stretches, lasts, measures, said
+from thermodata.store.tidy.flags.measured.not_measuring import Activity, join_while_not_measuring
+from thermodata.store.tidy.flags.measured.standing import join_while_standing
+from thermodata.store.tidy.flags.measured.trimmed import Trimmed
 from thermodata.store.tidy.plan.plan import SCHEDULE, Bound
 from thermodata.store.tidy.values.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.values.series import Member, TestSeries

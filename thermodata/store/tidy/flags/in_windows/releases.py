@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.calibration.quality.column import ANALOG
 from thermodata.plugin import Array
-from thermodata.store.tidy.flags import windows
-from thermodata.store.tidy.flags.cuts import cuts
+from thermodata.store.tidy.flags.in_windows import windows
+from thermodata.store.tidy.flags.in_windows.cuts import cuts
 from thermodata.store.tidy.plan.plan import Bound
 from thermodata.store.tidy.values.chunk import Column
 from thermodata.store.tidy.values.series import TestSeries

@@ -10,7 +10,7 @@ from thermodata.calibration.quality.event import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
 from thermodata.schema.units.quantity import PROBED
-from thermodata.store.tidy.flags.not_measuring import ONLY, joined
+from thermodata.store.tidy.flags.measured.not_measuring import ONLY, joined
 from thermodata.store.tidy.values.series import TestSeries
 
 _POINTS = 20  # of an event, at which the speed is asked

@@ -20,8 +20,8 @@ from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.places import is_at_tool
-from thermodata.store.tidy.flags.flicker import Flicker
-from thermodata.store.tidy.flags.readings import as_read, reading_with
+from thermodata.store.tidy.flags.beside.flicker import Flicker
+from thermodata.store.tidy.flags.beside.readings import as_read, reading_with
 
 if TYPE_CHECKING:
     from thermodata.store.tidy.plan.plan import Bound

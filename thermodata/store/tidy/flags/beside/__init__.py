@@ -1,0 +1,1 @@
+"""What is known of a channel only beside other tests, from what is kept of each of its chunks."""
