@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -39,6 +40,8 @@ class Sensor:
             value = np.round(value / self.resolution) * self.resolution
         return np.asarray(value, dtype=np.float64)
 
+
+_thermometer = partial(Sensor, quantity="temperature", unit="degC")
 
 # name, place, body, cell, how often a lab has it
 _PT100 = (
@@ -98,23 +101,20 @@ def make_sensors(rng: np.random.Generator) -> tuple[tuple[Sensor, ...], frozense
             spare.add(name)
         serial, offset = f"PT-{rng.integers(1000, 9999)}", float(rng.normal(0, 0.1))
         noise = float(rng.uniform(0.008, 0.02))
-        rows.append(_thermometer(name, "daq", at, (body, cell), noise, fine, serial, offset))
-    rows += [_thermometer(name, "nc", at, (body, 0), 0.02, 1.0 if whole else 0.1) for name, at, body in _OF_CONTROL]
+        rows.append(
+            _thermometer(
+                name, "daq", at=at, cell=(body, cell), noise_k=noise, resolution=fine, serial=serial, offset_k=offset
+            )
+        )
+    shown = 1.0 if whole else 0.1  # [K]
+    rows += [
+        _thermometer(name, "nc", at=at, cell=(body, 0), noise_k=0.02, resolution=shown)
+        for name, at, body in _OF_CONTROL
+    ]
     for name, at in _OF_AIR:
         serial, offset = f"AIR-{rng.integers(100, 999)}", float(rng.normal(0, 0.1))
-        rows.append(_thermometer(name, "rec", at, at, 0.015, 0.01, serial, offset))
+        rows.append(
+            _thermometer(name, "rec", at=at, cell=at, noise_k=0.015, resolution=0.01, serial=serial, offset_k=offset)
+        )
     rows += [Sensor(name, "nc", quantity, unit, at, resolution=step) for name, quantity, unit, at, step in _STATES]
     return tuple(rows), frozenset(spare)
-
-
-def _thermometer(
-    name: str,
-    source: SourceName,
-    at: str,
-    cell: tuple[str, int] | str,
-    noise_k: float,
-    resolution: float,
-    serial: str = "",
-    offset_k: float = 0.0,
-) -> Sensor:
-    return Sensor(name, source, "temperature", "degC", at, cell, noise_k, resolution, serial, offset_k)
