@@ -19,11 +19,12 @@ from thermodata.store.ingest.progress import counted
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.resolve import file_inside
 from thermodata.store.ingest.reading.side_by_side import read_side_by_side, workers_for
+from thermodata.store.ingest.reading.wanted import Wanted
 from thermodata.store.ingest.reading.worker import Task
-from thermodata.store.ingest.told.losses import FileRead, Losses, Said, add_unread, loss_row, tell, unread_signals
+from thermodata.store.ingest.told.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
-from thermodata.store.raw.streams import declared, raw_key, read_raw
+from thermodata.store.raw.streams import raw_key, read_raw
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
 
@@ -117,9 +118,8 @@ class RawIngest:
                 self.notes.append(f"{path}: is {new} now, with the same content")
                 self.passing = True
             else:
-                plan.raws += self._file(
-                    path, name, spec, before.get(path, []), test.id, (test.id, name), gone=path not in there
-                )
+                kept = before.get(path, [])
+                plan.raws += self._file(Wanted(path, name, spec, test.id, (test.id, name), kept, path not in there))
         if not files.paths and not plan.raws and files.patterns:
             text = f"test '{test.id}': no file of source '{name}' ({', '.join(files.patterns)})"
             if files.explicit:
@@ -156,8 +156,9 @@ class RawIngest:
             before = [r for r in self.inventory.raw_rows("", name) if r.source_path == spec.file]
             source = self.files.campaign.sources[spec.source]
             if is_there(path) or before:
+                gone = not is_there(path)
                 streams[name] = self._file(
-                    spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not is_there(path)
+                    Wanted(spec.file, spec.source, source, f"calibration {name}", ("", name), before, gone)
                 )
             else:
                 near = nearest(path.name, [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else [])
@@ -172,50 +173,40 @@ class RawIngest:
                 )
         return streams
 
-    def _file(
-        self,
-        path: str,
-        source: str,
-        spec: SourceSpec,
-        before: list[RawStream],
-        test: str,
-        kept_as: tuple[str, str],
-        gone: bool,
-    ) -> list[RawStream]:
-        """The raw streams of one file; [] and a loss where it can't be read. kept_as: test and source of its rows."""
-        raws: list[RawStream] = []
-        reader = self.files.reader(spec.reader, source)
+    def _file(self, wanted: Wanted) -> list[RawStream]:
+        """The raw streams of one file; [] and a loss where it can't be read."""
+        path, reader = wanted.path, self.files.reader(wanted.spec.reader, wanted.source)
         if path in self.files.campaign.versions:
-            raws = pinned(self.inventory, *kept_as, path, self.files.campaign.versions[path])
+            raws = pinned(self.inventory, *wanted.kept_as, path, self.files.campaign.versions[path])
             self.notes.append(f"{path}: version {raws[0].sha256[:12]}, as the campaign file wants")
-        elif gone:
-            raws = self._copy(path, before, reader, declared(source, spec))
+        elif wanted.gone:
+            raws = self._copy(wanted, reader)
         else:
-            try:
-                raws = self._read(path, source, spec, reader)
-            except StoreError:
-                raise
-            except (ThermodataError, OSError) as error:
-                if isinstance(error, OSError) and str(error.filename).startswith(str(self.files.store)):
-                    raise write_error(Path(error.filename), error) from error
-                self.passing = True  # the next time it may be read
-                reason = "; ".join(str(error).splitlines())
-                add_unread(self.losses, reason, FileRead(test, source, path))
-                raws = self._former(path, before)
-                if not raws:
-                    self.files.done(path)
-                    return []
+            raws = self._read_or_former(wanted, reader)
         self.files.done(path)
         fresh = {r.key for r in raws} - self._told  # of a workbook each sheet is raw data of its own
         self._told |= fresh
         if any(r.losses for r in raws):
-            unread, every = unread_signals(self.files.campaign, source, raws), list(self.said.values())
-            read = FileRead(test, source, path)
-            tell(raws, unread, self.said[self._test], every, read, again=not fresh)
+            unread, every = unread_signals(self.files.campaign, wanted.source, raws), list(self.said.values())
+            tell(raws, unread, self.said[self._test], every, wanted.as_read, again=not fresh)
         return raws
 
-    def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:
+    def _read_or_former(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
+        """What is read of a file, or where that fails what was read of it before, and why."""
+        try:
+            return self._read(wanted, reader)
+        except StoreError:
+            raise
+        except (ThermodataError, OSError) as error:
+            if isinstance(error, OSError) and str(error.filename).startswith(str(self.files.store)):
+                raise write_error(Path(error.filename), error) from error
+            self.passing = True  # the next time it may be read
+            add_unread(self.losses, "; ".join(str(error).splitlines()), wanted.as_read)
+            return self._former(wanted)
+
+    def _copy(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
         """The store's own copy of a file that isn't there any more."""
+        path, before = wanted.path, list(wanted.before)
         if before and not all(is_whole(self.files.store / r.path) for r in before):
             raise StoreError(
                 "a raw file of the store is gone or cut, and its source is gone",
@@ -225,13 +216,14 @@ class RawIngest:
             )
         if before:
             self.notes.append(f"{path}: not there any more; the store's raw copy is used")
-            why = read_otherwise(before[0], reader, declaration)
+            why = read_otherwise(before[0], reader, wanted.declaration)
             if why is not None:
                 self.losses.append(loss_row(f"not there to be read again: the store's raw copy was {why}", file=path))
         return before
 
-    def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
+    def _former(self, wanted: Wanted) -> list[RawStream]:
         """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
+        path, before = wanted.path, list(wanted.before)
         if not before or not all(is_whole(self.files.store / r.path) for r in before):
             return []
         with suppress(ThermodataError, OSError):  # a huge one may have been refused before it was hashed
@@ -240,8 +232,8 @@ class RawIngest:
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
         return before
 
-    def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
-        declaration = declared(source, spec)
+    def _read(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
+        path, declaration = wanted.path, wanted.declaration
         file = self.files.settle_readable(path, reader, declaration)
         key = raw_key(file.sha256, reader, declaration)
         if key not in self._streams:
