@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from thermodata.chart import Chart, HeatMap, effect_styles
@@ -53,8 +54,8 @@ def overviews(store: Store, models: Sequence[str], response: str | None = None) 
         for unit, some in by_unit.items():
             limit = limits.setdefault(unit, residual_scale([p.residual for p in some]))
             about, of = f"Residual of every test by {name}", f" [{unit}]" if len(by_unit) > 1 else ""
-            targets = [""] * len(some)
-            made[f"residual by {name}{of}"] = overview_map(some, unit, limit, targets, about, "", several=several)
+            drawn = overview_map(some, unit, limit, several=several)
+            made[f"residual by {name}{of}"] = replace(drawn, about=about)
     return made
 
 

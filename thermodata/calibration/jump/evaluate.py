@@ -7,13 +7,13 @@ position on the plateau's voltage (the position carries the larger error), with 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from thermodata.calibration.facing import facing_axis, geometric_sign
 from thermodata.calibration.jump import checks
-from thermodata.calibration.jump.fit import JumpFit, answer, fit_plateaus
+from thermodata.calibration.jump.fit import answer, fit_plateaus
 from thermodata.calibration.jump.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
 from thermodata.calibration.quality.ends.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
@@ -55,12 +55,16 @@ def evaluate_jump(
     if match is None:
         raise _on_rail(name, spec, v, unit) or _not_found(name, spec, moves, steps, t_s, probes)
     _refuse_either_sign(name, match, moves, len(steps), unit)
-    dwells = plateaus(t_s, v, match, steps, spec.dwell)
+
+    def dwells_of(t_s: Float1D, x: Float1D) -> list[Plateau]:
+        return plateaus(t_s, x, match, steps, spec.dwell)
+
+    dwells = dwells_of(t_s, v)
     _refuse_short(name, dwells)
     levels = np.concatenate([[0.0], np.cumsum(moves)])
     fit = fit_plateaus(dwells, levels, spec.move_uncertainty)
     _agrees_with_facing(name, spec, fit.gain, unit)
-    crosstalk = {k: _crosstalk(t_s, x, match, steps, levels, spec, fit) for k, x in probes.items()}
+    crosstalk = {k: _crosstalk(t_s, x, dwells_of, levels) * fit.gain for k, x in probes.items()}
     return CalibrationResult(
         name=name,
         kind="jump",
@@ -249,14 +253,13 @@ def _agrees_with_facing(name: str, spec: JumpCalibration, gain: float, unit: str
 
 
 def _crosstalk(
-    t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels: Float1D, spec: JumpCalibration, fit: JumpFit
+    t_s: Float1D, x: Float1D, dwells_of: Callable[[Float1D, Float1D], list[Plateau]], levels: Float1D
 ) -> float:
-    """The other probe's answer to the move, of this one's [%], signed; NaN where it has no data."""
+    """100 times the other probe's answer to the move [its unit/um], signed; NaN where it has no data."""
     fine = _is_reading(x)
     if fine.sum() < _LEAST_SAMPLES:
         return float("nan")
-    dwells = plateaus(t_s[fine], x[fine], match, steps, spec.dwell)
-    return 100.0 * answer(dwells, levels) * fit.gain
+    return 100.0 * answer(dwells_of(t_s[fine], x[fine]), levels)
 
 
 def _row(p: Plateau, level: float, rest: float) -> dict[str, float | int]:

@@ -171,18 +171,9 @@ def in_one_unit(parts: Sequence[TestPart], unit_of: Callable[[str], str]) -> dic
     return found
 
 
-def overview_map(
-    parts: Sequence[TestPart],
-    unit: str,
-    limit: float,
-    targets: Sequence[str],
-    about: str,
-    note: str,
-    *,
-    several: bool,
-) -> HeatMap:
+def overview_map(parts: Sequence[TestPart], unit: str, limit: float, *, several: bool) -> HeatMap:
     """The residual of every test as one coloured strip each: where the model fails, at a glance. parts: in one unit.
-    several: whether the model has several responses, so that a strip names its own."""
+    limit: where the colours end. several: whether the model has several responses, so that a strip names its own."""
     size = block_size(max(len(p.residual) for p in parts), 400)
     strips = [block_mean(p.residual, size) for p in parts]
     columns = max(len(s) for s in strips)
@@ -190,7 +181,8 @@ def overview_map(
     one = len({q.campaign for q in parts}) == 1
     names = [(p.test if one else f"{p.campaign}/{p.test}") + (f" {p.response}" if several else "") for p in parts]
     step_h = parts[0].step_s * size / 3600  # a model has one step
-    return HeatMap(about, Axis(TIME, "h"), unit, names, z, [len(s) for s in strips], 0.0, step_h, limit, note, targets)
+    about, lengths, targets = "Residual of every test", [len(s) for s in strips], [""] * len(parts)
+    return HeatMap(about, Axis(TIME, "h"), unit, names, z, lengths, 0.0, step_h, limit, targets=targets)
 
 
 def height_of(chart: Chart | HeatMap) -> int:

@@ -3,6 +3,7 @@ systems, and each test with the weak spots in it."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from thermodata.chart import Chart, HeatMap
@@ -53,10 +54,10 @@ def _overviews(data: ReportData) -> dict[str, Chart | HeatMap]:
         limit = residual_scale([t.residual for t in before or now])
         if before:
             about = f"Residual of every test in the first version, {data.versions[0].name}"
-            made[f"first{at}"] = overview_map(before, unit, limit, [""] * len(before), about, "", several=several)
+            made[f"first{at}"] = replace(overview_map(before, unit, limit, several=several), about=about)
         note = "" if i else "Point at a strip to read it; click to see its test there."
         targets = [f"test{j}" for j, t in enumerate(data.tests) if data.unit_of(t.response) == unit]
-        made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note, several=several)
+        made[f"overview{at}"] = replace(overview_map(now, unit, limit, several=several), note=note, targets=targets)
     return made
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
-from thermodata.reader.text.clocks.counts_of_seconds import may_be, scale_question
+from thermodata.reader.text.clocks.counts_of_seconds import Count, OpenTimes, may_be, scale_question
 from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, when
 
@@ -52,8 +52,8 @@ def count_question(name: str, values: Array, where: str, column: int | None = No
     unit = counted_by(name, values)
     if unit is None:
         return None
-    of, day = (unit, _SAID[unit]), when(values[0], unit)
-    return may_be(name, values[0], where, column, of, day, declare_else="; else {time: {period: 60 s}}")
+    times, count = OpenTimes(name, values[0], where, column), Count(unit, _SAID[unit], when(values[0], unit))
+    return may_be(times, count, declare_else="; else {time: {period: 60 s}}")
 
 
 def excel_or_question(name: str, values: Array, where: str, other: str) -> str:

@@ -4,6 +4,7 @@ or by a size that no recording reaches from its start."""
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -52,35 +53,45 @@ def scale_question(
         return None
     other = found_epoch(values)
     instead = "" if other is None else f"; as {other} it is {when(values[0], other)}"
-    at = f"{when(values[0], own)} UTC"
-    unit_of = own, _SCALES[scale]
-    return may_be(name, values[0], where, column, unit_of, at, declare_else=instead, asked_else=instead)
+    count = Count(own, _SCALES[scale], f"{when(values[0], own)} UTC")
+    return may_be(OpenTimes(name, values[0], where, column), count, declare_else=instead, asked_else=instead)
 
 
-def may_be(
-    name: str,
-    first: float,
-    where: str,
-    column: int | None,
-    unit: tuple[str, str],
-    at: str,
-    *,
-    declare_else: str,
-    asked_else: str = "",
-) -> QuestionError:
-    """Asks whether times are counted in a unit, which a draft takes meanwhile. first: of them; column: its number, from
-    1, where it has to be declared; unit: by its name and in words; at: when the first one is then."""
-    own, what = unit
-    said = {"time": {**({} if column is None else {"column": column}), "unit": own}}
+@dataclass(frozen=True, slots=True)
+class OpenTimes:
+    """The column of a table whose times are asked about. first: of them; column: its number, from 1, where it has to be
+    declared."""
+
+    name: str
+    first: float
+    where: str
+    column: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Count:
+    """A unit that times may be counted in: as it is declared and in words. begins: when the first of them is then."""
+
+    unit: str
+    meaning: str
+    begins: str
+
+
+def may_be(times: OpenTimes, count: Count, *, declare_else: str, asked_else: str = "") -> QuestionError:
+    """Asks whether times are such a count, which a draft takes meanwhile. declare_else, asked_else: what else they may
+    be, behind what is to be declared and behind what is asked."""
+    said = {"time": {**({} if times.column is None else {"column": times.column}), "unit": count.unit}}
     shown = ", ".join(f"{key}: {value}" for key, value in said["time"].items())
+    first = f"{times.first:.14g}"
     return QuestionError(
-        f"times that may be {what}",
-        where=where,
-        got=f"{name}: {first:.14g} ...",
+        f"times that may be {count.meaning}",
+        where=times.where,
+        got=f"{times.name}: {first} ...",
         expected="a unit",
         hint=f"declare table: {{time: {{{shown}}}}}{declare_else}",
-        times=[name],
-        ask=f"unit of the time: is '{name}' in {own} ({what})? {first:.14g} is {at} then{asked_else}",
+        times=[times.name],
+        ask=f"unit of the time: is '{times.name}' in {count.unit} ({count.meaning})? "
+        f"{first} is {count.begins} then{asked_else}",
         declare=said,
         meanwhile=said,
     )
