@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -55,8 +56,8 @@ def clocks_of(
                 notes=(f"clock not aligned: source '{spec.align_to}' has no data in this test",),
             )
             continue
-        key = _key(plan, source, there, clocks[there.name], declared, calibrations)
-        clocks[name] = known.get(key) or _estimate(store, plan, source, there, clocks, calibrations, key)
+        alignment = _Alignment(plan, source, there, clocks, calibrations)
+        clocks[name] = known.get(alignment.key) or alignment.estimate(store)
     tell_apart(plan, clocks)
     return clocks
 
@@ -122,81 +123,95 @@ def _ordered(plan: TestPlan) -> list[str]:
     return done
 
 
-def _key(
-    plan: TestPlan,
-    source: SourcePlan,
-    there: SourcePlan,
-    other: Clock,
-    declared: Clock,
-    calibrations: Mapping[str, CalibrationResult],
-) -> str:
-    names = [n for pair in source.spec.clock.by for n in (pair.here, pair.there)]
-    channels = [channel_text(plan.bound[n], calibrations) if n in plan.bound else n for n in names]
-    return key_of(
-        "clock 2",
-        repr([r.key for r in source.raws]),
-        repr([r.key if not r.moved_ns else (r.key, r.moved_ns) for r in there.raws]),
-        source.spec.clock.model_dump_json(),
-        repr((other.offset_ns, other.drift_ppm, other.base_ns)),
-        repr(declared),
-        *channels,
-    )
+@dataclass(frozen=True, slots=True)
+class _Alignment:
+    """Of the clock of one source on that of another. declared: source -> its clock as far as it is known; calibrations:
+    of the channels that both logged."""
 
+    plan: TestPlan
+    source: SourcePlan
+    there: SourcePlan
+    declared: Mapping[str, Clock]
+    calibrations: Mapping[str, CalibrationResult]
 
-def _estimate(
-    store: Path,
-    plan: TestPlan,
-    source: SourcePlan,
-    there: SourcePlan,
-    clocks: dict[str, Clock],
-    calibrations: Mapping[str, CalibrationResult],
-    key: str,
-) -> Clock:
-    declared = clocks[source.name]
-    reasons: list[str] = []
-    best = _by_events(source, there, clocks, reasons) or _by_channels(
-        TestSeries(store, plan, clocks, Span(0, None, None, False, False), calibrations), source, reasons
-    )
-    if best is None:
-        why = "; ".join(reasons) or "neither 'by' nor 'events' names anything that both logged"
-        return Clock(
-            declared.offset_ns,
-            declared.drift_ppm,
-            declared.base_ns,
-            True,
-            key,
-            (f"clock not aligned to '{there.name}': {why}",),
+    @property
+    def key(self) -> str:
+        """Of all that the estimate is made from."""
+        own, other = self.declared[self.source.name], self.declared[self.there.name]
+        names = [n for pair in self.source.spec.clock.by for n in (pair.here, pair.there)]
+        bound = self.plan.bound
+        channels = [channel_text(bound[n], self.calibrations) if n in bound else n for n in names]
+        return key_of(
+            "clock 2",
+            repr([r.key for r in self.source.raws]),
+            repr([r.key if not r.moved_ns else (r.key, r.moved_ns) for r in self.there.raws]),
+            self.source.spec.clock.model_dump_json(),
+            repr((other.offset_ns, other.drift_ppm, other.base_ns)),
+            repr(own),
+            *channels,
         )
-    how = (
-        f"from {best.stretches} declared events"
-        if source.spec.clock.events and np.isnan(best.correlation)
-        else f"correlation {best.correlation:.3f}"
-    )
-    note = (
-        f"clock aligned to '{there.name}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
-        f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, {how}"
-    )
-    # the estimate's offset holds at its own origin, a Clock's at the first recorded time
-    first = first_ns(source) + declared.offset_ns + declared.base_ns
-    offset = declared.offset_ns + int(best.apply(np.array([first]))[0]) - first
-    return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, key, (note,))
 
+    def estimate(self, store: Path) -> Clock:
+        """The clock by declared events, else by what both logged; as declared, and suspect, where neither tells."""
+        declared, there = self.declared[self.source.name], self.there.name
+        reasons: list[str] = []
+        best = self._by_events(reasons) or self._by_channels(store, reasons)
+        if best is None:
+            why = "; ".join(reasons) or "neither 'by' nor 'events' names anything that both logged"
+            note = f"clock not aligned to '{there}': {why}"
+            return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, self.key, (note,))
+        how = (
+            f"from {best.stretches} declared events"
+            if self.source.spec.clock.events and np.isnan(best.correlation)
+            else f"correlation {best.correlation:.3f}"
+        )
+        note = (
+            f"clock aligned to '{there}': {best.offset_ns / 1e9:+.3f} s, drift {best.drift_ppm:+.1f} ppm, "
+            f"uncertainty {best.uncertainty_ns / 1e9:.3f} s, {how}"
+        )
+        # the estimate's offset holds at its own origin, a Clock's at the first recorded time
+        first = first_ns(self.source) + declared.offset_ns + declared.base_ns
+        offset = declared.offset_ns + int(best.apply(np.array([first]))[0]) - first
+        return Clock(offset, declared.drift_ppm + best.drift_ppm, declared.base_ns, False, self.key, (note,))
 
-def _by_events(
-    source: SourcePlan, there: SourcePlan, clocks: Mapping[str, Clock], reasons: list[str]
-) -> ClockEstimate | None:
-    from thermodata.calibration.clock.events import offset_from_events
+    def _by_events(self, reasons: list[str]) -> ClockEstimate | None:
+        from thermodata.calibration.clock.events import offset_from_events
 
-    events = source.spec.clock.events
-    if not events:
-        return None
-    try:
-        here = [moment_ns(e.here, source, clocks[source.name], f"{i}.here") for i, e in enumerate(events, 1)]
-        other = [moment_ns(e.there, there, clocks[there.name], f"{i}.there") for i, e in enumerate(events, 1)]
-        return offset_from_events(np.array(here, np.int64), np.array(other, np.int64))
-    except CalibrationError as error:
-        reasons.append("; ".join(str(error).splitlines()))
-        return None
+        source, there = self.source, self.there
+        events = source.spec.clock.events
+        if not events:
+            return None
+        own, other = self.declared[source.name], self.declared[there.name]
+        try:
+            here = [moment_ns(e.here, source, own, f"{i}.here") for i, e in enumerate(events, 1)]
+            beside = [moment_ns(e.there, there, other, f"{i}.there") for i, e in enumerate(events, 1)]
+            return offset_from_events(np.array(here, np.int64), np.array(beside, np.int64))
+        except CalibrationError as error:
+            reasons.append("; ".join(str(error).splitlines()))
+            return None
+
+    def _by_channels(self, store: Path, reasons: list[str]) -> ClockEstimate | None:
+        from thermodata.calibration.clock.estimate import estimate_offset
+
+        whole = Span(0, None, None, False, False)
+        series = TestSeries(store, self.plan, self.declared, whole, self.calibrations)
+        best = None
+        for pair in self.source.spec.clock.by:
+            try:
+                for name in (pair.here, pair.there):
+                    if name not in series.plan.bound:
+                        raise SpecError(
+                            f"no channel '{name}' in this test",
+                            hint="align by a channel that both sources log in every test, or give this test's clock "
+                            "under its 'clocks'",
+                        )
+                estimate = estimate_offset(*_column(series, pair.here), *_column(series, pair.there))
+            except ThermodataError as error:
+                reasons.append("; ".join(str(error).splitlines()))
+                continue
+            if best is None or abs(estimate.correlation) > abs(best.correlation):
+                best = estimate
+        return best
 
 
 def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str) -> int:
@@ -217,28 +232,6 @@ def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str)
                 hint="give the moment as this source counts, or date its start with the test's 'start'",
             )
     return int(clock.correct(np.array([recorded], np.int64), first)[0])
-
-
-def _by_channels(series: TestSeries, source: SourcePlan, reasons: list[str]) -> ClockEstimate | None:
-    from thermodata.calibration.clock.estimate import estimate_offset
-
-    best = None
-    for pair in source.spec.clock.by:
-        try:
-            for name in (pair.here, pair.there):
-                if name not in series.plan.bound:
-                    raise SpecError(
-                        f"no channel '{name}' in this test",
-                        hint="align by a channel that both sources log in every test, or give this test's clock "
-                        "under its 'clocks'",
-                    )
-            estimate = estimate_offset(*_column(series, pair.here), *_column(series, pair.there))
-        except ThermodataError as error:
-            reasons.append("; ".join(str(error).splitlines()))
-            continue
-        if best is None or abs(estimate.correlation) > abs(best.correlation):
-            best = estimate
-    return best
 
 
 def _column(series: TestSeries, name: str) -> tuple[Int1D, Array]:
