@@ -62,6 +62,73 @@ class Repeats:
         return tuple(notes)
 
 
+@dataclass(frozen=True, slots=True)
+class _Compared:
+    """same: which rows were there before; other: which have the time of an earlier row, and other values."""
+
+    same: Bool1D
+    other: Bool1D
+    keys: Hashes
+
+
+@dataclass(frozen=True, slots=True)
+class _Rows:
+    """The n rows of a recording, chunk by chunk. lows, highs: the earliest and latest time of each chunk, as far as
+    `behind` has come."""
+
+    times: Times
+    keys: Keys
+    n: int
+    lows: list[int] = field(default_factory=list)
+    highs: list[int] = field(default_factory=list)
+
+    def behind(self) -> Iterator[tuple[int, int]]:
+        """(first, past-the-last) rows between a step back in time and the first row that is later than all before."""
+        high, begin, level = np.iinfo(np.int64).min, -1, 0
+        for first in range(0, self.n, CHUNK_ROWS):
+            t = self.times(first, min(self.n, first + CHUNK_ROWS))
+            self.lows.append(int(t.min()))
+            self.highs.append(int(t.max()))
+            high = max(high, int(t[0]))
+            before = np.maximum(np.concatenate([[high], np.maximum.accumulate(t)[:-1]]), high)
+            behind = np.flatnonzero(t.astype(np.float64) < before.astype(np.float64) - JITTER_NS)
+            high = max(high, self.highs[-1])
+            at = 0
+            while True:
+                if begin < 0:
+                    k = int(np.searchsorted(behind, at))
+                    if k == len(behind):
+                        break
+                    at = int(behind[k])
+                    begin, level = first + at, int(before[at])
+                later = np.flatnonzero(t[at:] > level)
+                if not later.size:
+                    break
+                at += int(later[0])
+                yield begin, first + at
+                begin = -1
+        if begin >= 0:
+            yield begin, self.n
+
+    def compared(self, begin: int, start: int, stop: int) -> _Compared:
+        """Rows start to stop beside all those before a stretch that begins at `begin`."""
+        t, own = self.times(start, stop), self.keys(start, stop)
+        low, high = int(t.min()), int(t.max())
+        whole = _mixed(t.view(np.uint64), own)
+        same, there = np.zeros(len(t), bool), np.zeros(len(t), bool)
+        for chunk, first in enumerate(range(0, begin, CHUNK_ROWS)):
+            if self.lows[chunk] > high or self.highs[chunk] < low:
+                continue
+            before = self.times(first, min(begin, first + CHUNK_ROWS))
+            within = np.flatnonzero((before >= low) & (before <= high))
+            if not within.size:
+                continue
+            p, q = int(within[0]), int(within[-1]) + 1
+            there |= np.isin(t, before[p:q])
+            same |= np.isin(whole, _mixed(before[p:q].view(np.uint64), self.keys(first + p, first + q)))
+        return _Compared(same, there & ~same, own)
+
+
 def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *, held: bool) -> Repeats:
     """Looks for stretches behind a step back in time whose rows were all there before, with the same values.
 
@@ -69,18 +136,17 @@ def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *
     moves, a copy and a clock that was set back are the same to see: only the begin of a file tells them apart. held:
     the values are written on change, so that the first rows of a copy may hold others.
     """
-    lows: list[int] = []
-    highs: list[int] = []
+    recording = _Rows(times, keys, n)
     cut: list[tuple[int, int]] = []
     mixed: list[tuple[int, int]] = []
     rows = others = 0
-    for a, b in _stretches(times, n, lows, highs):
-        some = _compared(times, keys, lows, highs, a, a, min(b, a + _FIRST_LOOK))
+    for a, b in recording.behind():
+        some = recording.compared(a, a, min(b, a + _FIRST_LOOK))
         first = a + (int(np.argmax(some.same)) if held else 0)
         same = new = 0
         values: set[int] = set()
         for start in range(first, b, CHUNK_ROWS) if some.same.any() else ():
-            found = _compared(times, keys, lows, highs, a, start, min(b, start + CHUNK_ROWS))
+            found = recording.compared(a, start, min(b, start + CHUNK_ROWS))
             if found.other.any():
                 same = 0
                 break
@@ -117,66 +183,6 @@ def pieces(lengths: Sequence[int], cut: Int1D) -> Iterator[tuple[int, int, int]]
 
 def _pairs(stretches: list[tuple[int, int]]) -> Int1D:
     return np.array(sorted(stretches), np.int64).reshape(-1, 2)
-
-
-def _stretches(times: Times, n: int, lows: list[int], highs: list[int]) -> Iterator[tuple[int, int]]:
-    """(first, past-the-last) rows between a step back in time and the first row that is later than all before. lows,
-    highs: the earliest and latest time of each chunk, filled in as far as rows were looked at."""
-    high, begin, level = np.iinfo(np.int64).min, -1, 0
-    for first in range(0, n, CHUNK_ROWS):
-        t = times(first, min(n, first + CHUNK_ROWS))
-        lows.append(int(t.min()))
-        highs.append(int(t.max()))
-        high = max(high, int(t[0]))
-        before = np.maximum(np.concatenate([[high], np.maximum.accumulate(t)[:-1]]), high)
-        behind = np.flatnonzero(t.astype(np.float64) < before.astype(np.float64) - JITTER_NS)
-        high = max(high, highs[-1])
-        at = 0
-        while True:
-            if begin < 0:
-                k = int(np.searchsorted(behind, at))
-                if k == len(behind):
-                    break
-                at = int(behind[k])
-                begin, level = first + at, int(before[at])
-            later = np.flatnonzero(t[at:] > level)
-            if not later.size:
-                break
-            at += int(later[0])
-            yield begin, first + at
-            begin = -1
-    if begin >= 0:
-        yield begin, n
-
-
-@dataclass(frozen=True, slots=True)
-class _Compared:
-    """same: which rows were there before; other: which have the time of an earlier row, and other values."""
-
-    same: Bool1D
-    other: Bool1D
-    keys: Hashes
-
-
-def _compared(
-    times: Times, keys: Keys, lows: Sequence[int], highs: Sequence[int], a: int, start: int, stop: int
-) -> _Compared:
-    """Rows start to stop of a stretch beside those before it, which ends at a."""
-    t, own = times(start, stop), keys(start, stop)
-    low, high = int(t.min()), int(t.max())
-    whole = _mixed(t.view(np.uint64), own)
-    same, there = np.zeros(len(t), bool), np.zeros(len(t), bool)
-    for chunk, first in enumerate(range(0, a, CHUNK_ROWS)):
-        if lows[chunk] > high or highs[chunk] < low:
-            continue
-        before = times(first, min(a, first + CHUNK_ROWS))
-        within = np.flatnonzero((before >= low) & (before <= high))
-        if not within.size:
-            continue
-        p, q = int(within[0]), int(within[-1]) + 1
-        there |= np.isin(t, before[p:q])
-        same |= np.isin(whole, _mixed(before[p:q].view(np.uint64), keys(first + p, first + q)))
-    return _Compared(same, there & ~same, own)
 
 
 def keys_of(columns: Iterable[Array], n: int) -> Hashes:
