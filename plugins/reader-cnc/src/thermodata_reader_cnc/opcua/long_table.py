@@ -23,7 +23,6 @@ from thermodata.reader.text.file.lines import ODD, chunks, from_line, sample, sp
 from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata.reader.text.file.losses import NAMED
 from thermodata.reader.text.rows.footer import footer_notes, is_footer
-from thermodata.reader.text.rows.grid import BadLine
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.times.one_cell import timestamp
 from thermodata.reader.times.zone import NAT
@@ -64,7 +63,12 @@ def _events(
     stamps = [columns[k] for k in layout.times]
     times = [next((text for text in each if text), "") for each in zip(*stamps, strict=True)]
     ns = timestamp.parse(times, layout.form)
-    losses, end = _not_rows(layout, rows.bad, rows.nul, rows.line[ns == NAT].tolist(), data, line, name)
+    undated = rows.line[ns == NAT].tolist()
+    texts = {each.line: each.text for each in rows.bad}
+    if undated:
+        lines = data.split(b"\n")
+        texts.update({k: lines[k - line].decode("utf-8", "replace").rstrip("\r") for k in undated})
+    losses, end = _not_rows(layout, texts, rows.nul, name)
     of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0])
     parts = [_parts(each, columns, rows.n) for each in (layout, *layout.more)]
     for number, time, good, stamp, *told in zip(*of_row, *parts, strict=True):
@@ -99,18 +103,10 @@ def _parts(layout: Layout, columns: dict[int, list[str | None]], n: int) -> Iter
 
 
 def _not_rows(
-    layout: Layout,
-    bad: Sequence[BadLine],
-    nul: Sequence[tuple[int, int]],
-    undated: Sequence[int],
-    data: bytes,
-    line: int,
-    name: str,
+    layout: Layout, texts: Mapping[int, str], nul: Sequence[tuple[int, int]], name: str
 ) -> tuple[list[tuple[int, Loss]], int | None]:
-    """((line, loss) of what is no row, in order; the line at which columns are named anew)."""
-    lines = data.split(b"\n") if undated else []
-    texts = {each.line: each.text for each in bad}
-    texts.update({k: lines[k - line].decode("utf-8", "replace").rstrip("\r") for k in undated})
+    """((line, loss) of what is no row, in order; the line at which columns are named anew). texts: line -> what stands
+    in it; nul: (line, how many NUL bytes); name: of the file."""
     end = min((k for k, text in texts.items() if layout.is_other_header(text)), default=None)
     found = [(k, 0, f"{count} NUL bytes") for k, count in nul]
     found += [
