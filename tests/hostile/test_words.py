@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
+from tests.stored_fits import score_of
 from thermodata.errors import UsageError
 from thermodata.report.text.fit import before_after_text, made_worse
 from thermodata.report.words.numbers import in_units
@@ -141,10 +142,7 @@ def story(lab: Lab) -> Path:
 
 
 def score(role: str, rmse_um: float) -> Score:
-    return Score(
-        model="m", campaign="c", test=role, role=role, response="dZ", phase="all", fit=50.0, rmse_um=rmse_um,
-        ptp_um=9.0, ptp_residual_um=3.0, max_um=3.0, n=100,
-    )  # fmt: skip
+    return score_of(role, role=role, rmse_um=rmse_um)
 
 
 @pytest.mark.parametrize(("after", "worse"), [(3.0, False), (3.61, False), (3.84, True)])

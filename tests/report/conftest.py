@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 import pytest
 
+from tests.stored_fits import score_of
 from thermodata.plugin import Float1D
 from thermodata.report.collected.data import Curve, ReportData, TestPart, Version
 from thermodata.schema.answers.candidate import Candidate
@@ -64,20 +65,8 @@ def part(test: str, role: str, seed: int, hours: float = 14.0, complete: bool = 
 
 
 def score(test: str, role: str, rmse: float, model: str = "b2", phase: str = "all") -> Score:
-    return Score(
-        model=model,
-        campaign="demo",
-        test=test,
-        role=role,
-        response="dZ",
-        phase=phase,
-        fit=100 - 12 * rmse,
-        rmse_um=rmse,
-        ptp_um=38.0,
-        ptp_residual_um=6 * rmse,
-        max_um=3 * rmse,
-        n=1650,
-    )
+    errors = {"fit": 100 - 12 * rmse, "rmse_um": rmse, "ptp_residual_um": 6 * rmse, "max_um": 3 * rmse}
+    return score_of(test, model=model, campaign="demo", role=role, phase=phase, ptp_um=38.0, n=1650, **errors)
 
 
 def diagnosis(verdict: Literal["effect", "none"] = "effect") -> Diagnosis:

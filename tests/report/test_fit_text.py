@@ -4,30 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+from tests.stored_fits import fit_of, score_of
 from thermodata.report.text.fit import compare_text, fit_text, no_common_test
 from thermodata.schema.answers.result import FitResult, Parameter, Score
 
 
 def _score(test: str, campaign: str = "spring") -> Score:
-    return Score(
-        model="m",
-        campaign=campaign,
-        test=test,
-        role="calibration",
-        response="dZ",
-        phase="all",
-        fit=50.0,
-        rmse_um=1.5,
-        ptp_um=9.0,
-        ptp_residual_um=3.0,
-        max_um=2.0,
-        n=100,
-    )
+    return score_of(test, campaign=campaign, rmse_um=1.5, max_um=2.0, n=100)
 
 
 def _fit(name: str, scores: list[Score], **more: Any) -> FitResult:
-    given: dict[str, Any] = {"campaigns": [scores[0].campaign], "response": "dZ", "parameters": {}, "checks": []}
-    return FitResult(model=f"{name}123456", name=name, parent=None, scores=scores, **{**given, **more})
+    return fit_of(f"{name}123456", scores, name=name, **more)
 
 
 def test_a_parameter_of_an_effect_whose_gain_is_0_changes_nothing() -> None:

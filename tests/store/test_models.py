@@ -8,10 +8,11 @@ from typing import Any
 import pyarrow as pa
 import pytest
 
+from tests.stored_fits import fit_of, score_of
 from thermodata.errors import StoreError, UsageError
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis, WeakSpot
-from thermodata.schema.answers.result import FitResult, Parameter, Score
+from thermodata.schema.answers.result import FitResult, Parameter
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis, save_findings
@@ -37,32 +38,9 @@ SPEC: dict[str, Any] = {
 def fit(
     model: str, name: str = "base", parent: str | None = None, tests: tuple[str, ...] = ("one", "two")
 ) -> FitResult:
-    return FitResult(
-        model=model,
-        name=name,
-        parent=parent,
-        campaigns=["shop"],
-        response="dZ",
-        checks=[],
-        parameters={"lag.tau": Parameter(value=1800.0, unit="s", low=1700.0, high=None)},
-        scores=[
-            Score(
-                model=model,
-                campaign="shop",
-                test=t,
-                role="calibration",
-                response="dZ",
-                phase="all",
-                fit=80.0,
-                rmse_um=1.5,
-                ptp_um=30.0,
-                ptp_residual_um=4.0,
-                max_um=3.0,
-                n=40,
-            )
-            for t in tests
-        ],
-    )
+    tau = Parameter(value=1800.0, unit="s", low=1700.0, high=None)
+    scores = [score_of(t, model=model, campaign="shop", rmse_um=1.5) for t in tests]
+    return fit_of(model, scores, name=name, parent=parent, parameters={"lag.tau": tau})
 
 
 def save(

@@ -8,11 +8,10 @@ import shlex
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 import pytest
 
+from tests.stored_fits import fit_of, predicts_nothing, score_of
 from thermodata.cli import main
-from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store.catalogue.models.fits import save_fit
 
@@ -44,36 +43,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "response": {"axis": "Z"},
             "effects": [{"effect": "drift"}],
         }
-        scores = [
-            Score(
-                model=model,
-                campaign=c,
-                test=t,
-                role="calibration",
-                response="dZ",
-                phase="all",
-                fit=50.0,
-                rmse_um=1.0,
-                ptp_um=2.0,
-                ptp_residual_um=2.0,
-                max_um=1.0,
-                n=60,
-            )
-            for c, t in keys
-        ]
-        result = FitResult(
-            model=model,
-            name=model,
-            parent=None,
-            campaigns=campaigns,
-            response="dZ",
-            parameters={},
-            scores=scores,
-            checks=[],
-        )
+        result = fit_of(model, [score_of(t, model=model, campaign=c) for c, t in keys])
         y = np.sin(t_s / 900)
-        table = {"t_s": t_s, "measured": y, "predicted": 0 * y, "residual": y, "valid": np.ones(60, bool)}
-        predicted = pa.table({**table, "c__drift": 0.1 * y})
+        predicted = predicts_nothing(t_s, y, drift=0.1 * y)
         save_fit(
             store,
             spec=Model.model_validate(spec),

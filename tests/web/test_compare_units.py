@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from thermodata.schema.answers.result import FitResult, Score
+from tests.stored_fits import fit_of, predicts_nothing, score_of
 from thermodata.schema.files.model import Model
 from thermodata.store.catalogue.models.fits import save_fit
 
@@ -23,7 +23,6 @@ RESPONSES = ("dZ", "T_nut")
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
     """One model of a displacement, which it misses by 30 um, and of a temperature, which it misses by 0.2 K."""
-    import pyarrow as pa
 
     folder = tmp_path_factory.mktemp("models") / "store"
     t_s, b = np.arange(60) * 60.0, Builder(folder)
@@ -43,23 +42,12 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
         }
     )
     left = {"dZ": 30 * course, "T_nut": 0.2 * course}
-    tables = {
-        ("c", "a", name): pa.table(
-            {"t_s": t_s, "measured": y, "predicted": 0 * t_s, "residual": y, "valid": np.ones(60, bool)}
-        )
-        for name, y in left.items()
-    }
+    tables = {("c", "a", name): predicts_nothing(t_s, y) for name, y in left.items()}
     scores = [
-        Score(
-            model=MODEL, campaign="c", test="a", role="calibration", response=name, phase="all", fit=0.0,
-            rmse_um=rmse, ptp_um=2.0, ptp_residual_um=2.0, max_um=1.0, n=60,
-        )
+        score_of("a", model=MODEL, response=name, fit=0.0, rmse_um=rmse)
         for name, rmse in (("dZ", 30.0), ("T_nut", 0.2))
-    ]  # fmt: skip
-    result = FitResult(
-        model=MODEL, name="both", parent=None, campaigns=["c"], response=list(RESPONSES), parameters={}, scores=scores,
-        checks=[],
-    )  # fmt: skip
+    ]
+    result = fit_of(MODEL, scores, name="both")
     save_fit(store, spec=spec, result=result, parent=None, data_version="v1", predictions=tables)
     return client_of(store.path)[0]
 

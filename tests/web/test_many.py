@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.schema.answers.result import FitResult, Score
+from tests.stored_fits import fit_of, predicts_nothing, score_of
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models.fits import save_fit
@@ -24,7 +24,6 @@ TESTS = 1000
 @pytest.fixture(scope="module")
 def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """1,000 tests of an hour, and two versions of a model over all of them."""
-    import pyarrow as pa
 
     t_s, b = np.arange(60) * 60.0, Builder(tmp_path_factory.mktemp("many") / "store")
     names = [f"t{i:04}" for i in range(TESTS)]
@@ -46,36 +45,9 @@ def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
         )
         open_ones = [t for i, t in enumerate(names) if i % 10 != 9]
         residual = size * np.sin(t_s / 900)
-        table = pa.table(
-            {"t_s": t_s, "measured": residual, "predicted": 0 * t_s, "residual": residual, "valid": np.ones(60, bool)}
-        )
-        scores = [
-            Score(
-                model=version,
-                campaign="many",
-                test=t,
-                role="calibration",
-                response="dZ",
-                phase="all",
-                fit=50.0,
-                rmse_um=size,
-                ptp_um=2 * size,
-                ptp_residual_um=size,
-                max_um=size,
-                n=60,
-            )
-            for t in open_ones
-        ]
-        result = FitResult(
-            model=version,
-            name="base",
-            parent=None if version == "first" else "first",
-            campaigns=["many"],
-            response="dZ",
-            parameters={},
-            scores=scores,
-            checks=[],
-        )
+        table = predicts_nothing(t_s, residual)
+        scores = [score_of(t, model=version, campaign="many", rmse_um=size) for t in open_ones]
+        result = fit_of(version, scores, name="base", parent=None if version == "first" else "first")
         save_fit(
             store,
             spec=spec,

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.stored_fits import fit_of, predicts_nothing, score_of
 from thermodata.cli import main
 from thermodata.modelling.named import newest_model
-from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import save_diagnosis
@@ -32,7 +32,6 @@ def identity(number: int) -> str:
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
     """15 fits of one edited file on a temperature; the last predicts one of the two tests only."""
-    import pyarrow as pa
 
     folder = tmp_path_factory.mktemp("models") / "store"
     t_s, b = np.arange(60) * 60.0, Builder(folder)
@@ -53,21 +52,10 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Client:
             }
         )
         left = np.sin(t_s / 900)
-        table = pa.table(
-            {"t_s": t_s, "measured": left, "predicted": 0 * t_s, "residual": left, "valid": np.ones(60, bool)}
-        )
+        table = predicts_nothing(t_s, left)
         tests = ("a",) if i == MODELS - 1 else ("a", "b")
-        scores = [
-            Score(
-                model=name, campaign="c", test=t, role="calibration", response="T_nut", phase="all", fit=50.0,
-                rmse_um=9.0 if t == "b" else 3.0, ptp_um=2.0, ptp_residual_um=2.0, max_um=1.0, n=60,
-            )
-            for t in tests
-        ]  # fmt: skip
-        result = FitResult(
-            model=name, name="rev", parent=None, campaigns=["c"], response="T_nut", parameters={}, scores=scores,
-            checks=[],
-        )  # fmt: skip
+        scores = [score_of(t, model=name, response="T_nut", rmse_um=9.0 if t == "b" else 3.0) for t in tests]
+        result = fit_of(name, scores, name="rev")
         save_fit(
             store, spec=spec, result=result, parent=None, data_version="v1",
             predictions={("c", t, "T_nut"): table for t in tests},

@@ -8,10 +8,9 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 import pytest
 
-from thermodata.schema.answers.result import FitResult, Score
+from tests.stored_fits import fit_of, predicts_nothing, score_of
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models.fits import save_fit
@@ -41,21 +40,14 @@ def fit(store: Store, model: str) -> None:
         "effects": [] if model == "a1" else [{"effect": "drift"}],
     }
     y = size * np.sin(T_S / 900)
-    score = Score(
-        model=model, campaign=campaign, test="day", role="calibration", response="dZ", phase="all", fit=50.0,
-        rmse_um=size / 2, ptp_um=2 * size, ptp_residual_um=size, max_um=size, n=60,
-    )  # fmt: skip
-    result = FitResult(
-        model=model, name=name, parent="a1" if model == "a2" else None, campaigns=[campaign], response="dZ",
-        parameters={}, scores=[score], checks=[],
-    )  # fmt: skip
-    table = {"t_s": T_S, "measured": y, "predicted": 0 * y, "residual": y, "valid": np.ones(60, bool)}
+    score = score_of("day", model=model, campaign=campaign, rmse_um=size / 2)
+    result = fit_of(model, [score], name=name, parent="a1" if model == "a2" else None)
     save_fit(
         store,
         spec=Model.model_validate(spec),
         result=result,
         parent=result.parent,
-        predictions={(campaign, "day", "dZ"): pa.table({**table, "c__drift": 0.1 * y})},
+        predictions={(campaign, "day", "dZ"): predicts_nothing(T_S, y, drift=0.1 * y)},
         data_version="v1",
     )
 
