@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import errno
 import os
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
+from tests.no_room import no_file_longer_than
 from thermodata.cli.terminal.common import known_failure
 from thermodata.errors import ThermodataError
 from thermodata.export import export_test
@@ -20,26 +18,11 @@ from thermodata.view import StoreView
 
 from .test_take_away import view as view  # a store with one test
 
-resource = pytest.importorskip("resource")
-
-
-@contextmanager
-def full_after(size: int) -> Iterator[None]:
-    """No file may grow beyond `size` bytes: EFBIG."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True  # Python would cut that of an import, and keep it
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        sys.dont_write_bytecode = bytecode
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-
 
 @pytest.mark.parametrize("name", ["out.csv", "out.parquet", "out.mat", "out.mf4"])
 def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, name: str) -> None:
     out = tmp_path / "away" / name
-    with full_after(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
+    with no_file_longer_than(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
         export_test(view, "c", "sp9000", out, step="1 s")
     assert error.value.where == str(out)
     assert "ulimit -f" in str(error.value.hint)
@@ -51,7 +34,7 @@ def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, na
 
 def test_a_page_on_a_full_disk_says_where_and_the_old_page_stays(tmp_path: Path) -> None:
     page = write_page(tmp_path / "r.html", "old")
-    with full_after(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
+    with no_file_longer_than(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
         write_page(page, "new" * 1000)
     assert error.value.where == str(page)
     assert page.read_text() == "old"

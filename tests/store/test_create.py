@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-import resource
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import duckdb
 import pytest
 
+from tests.no_room import no_file_longer_than
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
 
 pytestmark = pytest.mark.usefixtures("stores_made_anew")
-
-
-@contextmanager
-def no_file_longer_than(most_bytes: int) -> Iterator[None]:
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True  # Python would cut that of an import, and keep it
-    resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, hard))
-    try:
-        yield
-    finally:
-        sys.dont_write_bytecode = bytecode
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
 @pytest.mark.parametrize("most_bytes", [1_000, 20_000, 100_000, 300_000])

@@ -13,7 +13,7 @@ from thermodata.cli import main
 from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.report.words.numbers import typeset
-from thermodata.schema.answers.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis
@@ -28,11 +28,15 @@ from .client import Client
 from .conftest import client_of
 
 
+def diagnosed(lab: Path) -> tuple[Store, str, Diagnosis]:
+    """The store of a lab, its first model, and what was found missing in it."""
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    return store, model, load_diagnosis(store, model)
+
+
 def test_the_headline_is_the_sentence_of_the_terminal(reader: Client, made_lab: Path) -> None:
-    found = load_diagnosis(
-        Store(made_lab / "thermodata.store"),
-        Store(made_lab / "thermodata.store").connect().execute("select model from model").fetchone()[0],
-    )
+    _, _, found = diagnosed(made_lab)
     claim = next(c for c in found.candidates if c.claimed)
     text = reader.get("/missing").text
     headline = re.search(r"<h1[^>]*>(.*?)</h1>", text, re.S)[1]
@@ -95,9 +99,7 @@ def test_each_look_at_a_locked_test_is_told_with_what_it_was_for(lab: Path) -> N
 
 
 def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     other = {"id": "gain_by:lag,conditions.tool", "effect": "lag", "claimed": False, "refinement": True}
     fresh = [one.model_copy(update=other), *(c for c in found.candidates if c is not one)]
@@ -131,9 +133,7 @@ def test_a_slip_that_was_told_is_taken_out_by_a_click(lab: Path) -> None:
 
 
 def test_of_several_claims_one_click_or_one_command_adds_them_all(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     other = one.model_copy(update={"id": "coolant:coolant_on", "effect": "coolant", "rank": 2})
     for claims, several in (([one], False), ([one, other], True)):
@@ -147,9 +147,7 @@ def test_of_several_claims_one_click_or_one_command_adds_them_all(lab: Path) -> 
 
 
 def test_several_claims_have_a_line_each_below_a_short_head_and_all_but_the_first_are_folded(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     other = one.model_copy(update={"id": "coolant:coolant_on", "effect": "coolant", "rank": 2})
     both = found.model_copy(update={"candidates": [one, other]})
@@ -186,9 +184,7 @@ def test_what_is_added_together_is_told_one_by_one(lab: Path) -> None:
     [(5.17, "the error rises", "hardly falls"), (4.67, "the error hardly falls", "the error rises")],
 )
 def test_an_error_that_rises_is_not_said_to_fall(lab: Path, after: float, said: str, never: str) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     rungs = [r.model_copy(update={"holds": False}) if r.name == "fall" else r for r in one.rungs]
     errors = {"rmse_um_before": 4.68, "rmse_um_after": after}
@@ -200,9 +196,7 @@ def test_an_error_that_rises_is_not_said_to_fall(lab: Path, after: float, said: 
 
 
 def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     rival = one.model_copy(update={"id": "lag:T_nut", "claimed": False, "rank": 2, "why": "", "locked_tests_asked": 0})
     claim = one.model_copy(update={"equivalent": ["lag:T_nut"]})
@@ -213,9 +207,7 @@ def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) ->
 
 
 def test_a_twin_of_the_claim_is_told_as_one_though_a_rule_fails_beside_it(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     one = next(c for c in found.candidates if c.claimed)
     rungs = [r.model_copy(update={"holds": False}) if r.name == "worth" else r for r in one.rungs]
     less = {"claimed": False, "rungs": rungs, "locked_tests_asked": 0}
@@ -239,9 +231,7 @@ def test_pictures_come_before_the_rules_behind_them(reader: Client) -> None:
 
 
 def test_what_a_claim_is_not_told_from_stands_once_in_the_headline(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     twins = ["feed_motor:T_bearing", "lag:T_nut_Z"]
     fresh = [c.model_copy(update={"equivalent": twins}) if c.claimed else c for c in found.candidates]
     save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
@@ -296,9 +286,7 @@ def test_abstaining_is_told_as_clearly_as_claiming(lab: Path) -> None:
 
 
 def test_what_nothing_logged_explains_is_drawn_and_the_next_test_is_said_beside_a_candidate(lab: Path) -> None:
-    store = Store(lab / "thermodata.store")
-    model = store.connect().execute("select model from model").fetchone()[0]
-    found = load_diagnosis(store, model)
+    store, model, found = diagnosed(lab)
     course = HeatCourse(
         campaign="small",
         test="day1",
