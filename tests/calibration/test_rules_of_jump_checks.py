@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.calibration.jump.checks import Seen, rows
+from thermodata.calibration.jump.checks import EvaluatedJump, rows
 from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.jump.plateaus import Plateau
 from thermodata.calibration.result import Check
@@ -55,7 +55,7 @@ def judged(
     **more: Any,
 ) -> dict[str, Check]:
     fit = replace(FIT, **(changed or {}))
-    found = rows(Seen(spec(**more), list(moves), fit, crosstalk or {}, plateaus(*dwells), unit))
+    found = rows(EvaluatedJump(spec(**more), list(moves), fit, crosstalk or {}, plateaus(*dwells), unit))
     return {c["name"]: c for c in found}
 
 

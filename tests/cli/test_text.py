@@ -15,7 +15,7 @@ from thermodata.cli.model.besides import as_table
 from thermodata.cli.terminal.common import plain
 from thermodata.cli.terminal.json_text import json_text
 from thermodata.cli.terminal.layout import LAYOUTS, latex, markdown
-from thermodata.modelling.compare.beside import Beside
+from thermodata.modelling.compare.beside import ModelOnTest
 from thermodata.report.text.fit import check_text
 from thermodata.report.text.table import sentences_folded, table
 from thermodata.report.words.numbers import change, duration, number, typeset
@@ -252,7 +252,7 @@ def test_json_of_a_large_answer_comes_in_pieces() -> None:
 
 
 def _beside(model: str, name: str, residual: float) -> dict[str, object]:
-    return Beside("c", "t_1", "verification", "dZ", model, name, residual=residual).to_json()
+    return ModelOnTest("c", "t_1", "verification", "dZ", model, name, residual=residual).to_json()
 
 
 @pytest.mark.parametrize("layout", list(LAYOUTS))

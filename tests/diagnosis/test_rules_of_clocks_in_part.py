@@ -11,7 +11,7 @@ import pytest
 from thermodata.diagnosis.clocks.by_commands import timings
 from thermodata.diagnosis.clocks.by_heat import Late, Logs, as_artefact, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.moves import moved
-from thermodata.diagnosis.clocks.sides import Key, Part, Sides, in_order, in_words, part_of
+from thermodata.diagnosis.clocks.sides import Key, ShiftedPart, Sides, in_order, in_words, part_of
 from thermodata.diagnosis.clocks.timings import Timing
 from thermodata.diagnosis.clocks.timings import as_artefact as by_commands
 from thermodata.view.grid.dataset import TestData
@@ -184,8 +184,8 @@ def test_a_test_tells_where_one_time_foretells_more_than_the_other(
 
 def test_a_part_in_words() -> None:
     assert in_words(None) == ""
-    assert in_words(Part(keys((1, 3)), ())) == " in t1 and t3"
-    assert Timing("nc", 600.0, 0.5, 0.0, part=Part(keys((1,)), keys((0,)))).moves()[0].test == "t1"
+    assert in_words(ShiftedPart(keys((1, 3)), ())) == " in t1 and t3"
+    assert Timing("nc", 600.0, 0.5, 0.0, part=ShiftedPart(keys((1,)), keys((0,)))).moves()[0].test == "t1"
 
 
 @pytest.mark.parametrize("failed", ["all", "none"])

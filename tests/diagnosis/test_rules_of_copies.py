@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.locked.copies import as_artefacts, copies
-from thermodata.diagnosis.question.once import Again, each_once
+from thermodata.diagnosis.question.once import RepeatedSamples, each_once
 from thermodata.diagnosis.question.once import as_artefacts as as_told
 from thermodata.view.grid.dataset import Dataset, TestData
 from thermodata.view.grid.recorded import Recorded
@@ -60,7 +60,7 @@ def cut(name: str, from_row: int, to_row: int, file: str = "day", signal: str = 
     return replace(a_test(name, len(values), values={"dZ": values}), recorded={"dZ": where})
 
 
-def once(*tests: TestData) -> tuple[dict[str, list[int]], list[Again]]:
+def once(*tests: TestData) -> tuple[dict[str, list[int]], list[RepeatedSamples]]:
     """(test -> its rows that still count, what was found)."""
     data, kept, found = each_once(Dataset(60.0, tests, {}), tests, lambda test: "dZ")
     assert {t.key for t in kept} <= {t.key for t in data.tests}

@@ -53,8 +53,8 @@ def test_an_archive_is_held_only_against_those_that_share_a_name(
 
     as_unpacked = module.as_unpacked
     monkeypatch.setattr(module, "as_unpacked", counted)
-    held = Mock(side_effect=module._Known.all_like, autospec=True)
-    monkeypatch.setattr(module._Known, "all_like", held)
+    held = Mock(side_effect=module._ByLogName.all_like, autospec=True)
+    monkeypatch.setattr(module._ByLogName, "all_like", held)
     assert packed_copies(tmp_path, paths) == {}
     assert set(named.values()) == {1}
     assert not held.called

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.modelling.compare.ahead import Ahead, Left, ahead, values_worth
+from thermodata.modelling.compare.ahead import Ahead, UnseenError, ahead, values_worth
 from thermodata.modelling.predictions.predict import Predicted, predict
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
@@ -67,7 +67,7 @@ def test_the_calibration_of_the_probe_widens_band_and_gains_by_one_factor(world:
 
 
 def test_what_is_left_grows_beyond_what_was_predicted_in_the_tests() -> None:
-    left = Left("um", 0.5, 50.0, ("a", "b", "c", "d"), True, 4.0)
+    left = UnseenError("um", 0.5, 50.0, ("a", "b", "c", "d"), True, 4.0)
     assert left.times == pytest.approx(2.776, abs=1e-3)
     assert left.half(np.array([0.0, -50.0, 100.0])) == pytest.approx(left.times * np.array([0.5, 0.5, 1.0]))
 
@@ -79,7 +79,7 @@ def test_no_band_where_nothing_says_how_sure_the_model_is(world: Dataset, spec: 
     kept = ahead(fitted, world, kept=True)
     assert kept.why_not is not None
     assert kept.of(p).half is None
-    known = Ahead({"dZ": Left("um", 0.5, 50.0, ("a", "b"), True, 2.0)}, {}, ("m1",))
+    known = Ahead({"dZ": UnseenError("um", 0.5, 50.0, ("a", "b"), True, 2.0)}, {}, ("m1",))
     assert known.of(replace(p, machine="m1")).half is not None
     assert known.of(replace(p, machine="m2")).half is None
     unsure = predict(fit_model(spec(*EFFECTS), world, uncertainty=False), world)[0][0]

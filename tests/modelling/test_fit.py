@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
-from thermodata.export.control.of_model import Asked, program_of
+from thermodata.export.control.of_model import ProgramRequest, program_of
 from thermodata.modelling import fit_model
 from thermodata.modelling.least_squares import coarse
 from thermodata.modelling.versions.result import model_id
@@ -135,7 +135,9 @@ def test_an_effect_identified_first_is_refined_with_the_others(world: Dataset, s
 
 def test_a_program_names_every_test_that_its_parameters_come_from(world: Dataset, spec: Spec, changed: Change) -> None:
     def named(model: Model, data: Dataset = world) -> str:
-        return dict(program_of("m", fit_model(model, data, uncertainty=False), data, Asked(60.0)).about)["fitted on"]
+        return dict(program_of("m", fit_model(model, data, uncertainty=False), data, ProgramRequest(60.0)).about)[
+            "fitted on"
+        ]
 
     one = spec("spindle_bearing", calibrate_on=["t0", "t1"], verify_on=["t4"])
     grown = one.model_copy(update={"in_sample": True})

@@ -118,7 +118,10 @@ MUTANTS = [
     diagnosis("probability.py", "-2.65, -0.9, ", "0.0, -0.9, ", "a casting that follows the cause is claimed"),
     diagnosis("probability.py", "-2.65, -0.9, ", "-2.65, 0.0, ", "the nut is claimed where the guideway has no sensor"),
     diagnosis(
-        "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
+        "unread.py",
+        "and MachinePart(heat, name) not in known",
+        "",
+        "a guideway that the model has is named beside the nut",
     ),
     diagnosis(
         "unread.py", "for c in channels.values() if is_motion(c.quantity))", "for c in ())", "a lesser part beats it"

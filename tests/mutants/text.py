@@ -198,7 +198,7 @@ MUTANTS = [
     text("times/time_formats.py", "zoned * 2 > len(some)", "zoned > 0", "one zone makes all local times bad"),
     text("times/time_formats.py", "_FEW, _MANY = 40, 4000", "_FEW, _MANY = 40, 40", "one day above 12 is not seen"),
     # ---- a start above the rows
-    text("preamble/begin.py", "said.says < Says.RECORDED or not", "not", "the date of an export is the start"),
+    text("preamble/begin.py", "said.says < TimeLabel.RECORDED or not", "not", "the date of an export is the start"),
     text("preamble/begin.py", "or not first.near_zero)):", ")):", "rows that begin late count from the start"),
     text("preamble/begin.py", "if said.several or not first.ns:", "if not first.ns:", "of two starts one is taken"),
     text(
@@ -223,10 +223,13 @@ MUTANTS = [
         "a start that is not there is silent",
     ),
     text(
-        "preamble/head_words.py", "if Says.MADE in known else", "if False else", "a word for a start outdoes an export"
+        "preamble/head_words.py",
+        "if TimeLabel.MADE in known else",
+        "if False else",
+        "a word for a start outdoes an export",
     ),
     text("preamble/head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
-    text("preamble/head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
+    text("preamble/head_start.py", "min(low, TimeLabel.BARE)", "high", "a duration is a time of day"),
     # ---- days and midnights
     text(
         "times/several_cells/days.py",

@@ -13,7 +13,7 @@ from thermodata.cli import main
 from thermodata.cli.start.simulating import MACHINES as OFFERED
 from thermodata.errors import UsageError
 from thermodata.virtual.blind import run as running
-from thermodata.virtual.blind.asked import Asked
+from thermodata.virtual.blind.asked import BenchmarkRequest
 from thermodata.virtual.blind.goals import overall
 from thermodata.virtual.blind.machines import MACHINES
 from thermodata.virtual.blind.rivals import RIVALS, STEP_S, Question, _lasso, stepwise_bic
@@ -282,20 +282,20 @@ def test_a_run_is_asked_for_and_told_without_a_command(
 ) -> None:
     monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
     used = range(SEALED.start, SEALED.start + 2)
-    asked = Asked(machine, used, (stratum,))
+    asked = BenchmarkRequest(machine, used, (stratum,))
     found = asked.answered()
     assert found.seeds == asked.which == f"sealed seeds {SEALED.start} to {SEALED.start + 1}"
     assert found.to_json()["machine"] == machine
     assert "probabilities  none stated" in text(found)
     for wrong in (stratum[:-1], of_another):
         with pytest.raises(UsageError, match=f"no stratum '{wrong}'"):
-            Asked(machine, used, (wrong,))
+            BenchmarkRequest(machine, used, (wrong,))
 
 
 def test_every_stratum_of_a_machine_is_asked_where_none_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(running, "one", lambda stratum, seed, rivals: {**BLANK, "stratum": stratum, "seed": seed})
     for machine, strata in MACHINES.items():
-        assert [t["stratum"] for t in Asked(machine, range(1)).answered().trials] == list(strata)
+        assert [t["stratum"] for t in BenchmarkRequest(machine, range(1)).answered().trials] == list(strata)
     assert set(OFFERED) == set(MACHINES), "what the command offers is what can be judged"
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling.compare import elsewhere
-from thermodata.modelling.compare.beside import Beside, beside
+from thermodata.modelling.compare.beside import ModelOnTest, beside
 from thermodata.modelling.compare.differences import TestDifference, differences
 from thermodata.modelling.compare.one_version import refuse_stale
 from thermodata.modelling.compare.portability import Portability, portability
@@ -182,7 +182,7 @@ def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
     return differences([(m.identity, m.fitted, m.data) for m in loaded])
 
 
-def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[Beside]:
+def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Sequence[str] = ()) -> list[ModelOnTest]:
     """The models beside each other on every open test (or on those named), each against the reference. UsageError
     where one of them was fitted to another version of the data: their differences would be those of the data."""
     from thermodata.store.catalogue.models.fits import find_model

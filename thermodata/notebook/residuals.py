@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from thermodata.chart import effect_styles
-from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.as_system import SeenResponse
 from thermodata.modelling.seen.residual_tests import WHY_BY_THE_FIT, Against, LjungBox
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
@@ -18,7 +18,7 @@ from thermodata.report.text.table import table
 class ResidualTests(Shown):
     """Over the calibration tests; of the first response, and of each in `responses`."""
 
-    def __init__(self, model: str, seen: Sequence[Seen]) -> None:
+    def __init__(self, model: str, seen: Sequence[SeenResponse]) -> None:
         self.model, self.responses = model, {s.response: s for s in seen}
         self._first = seen[0]
 

@@ -56,7 +56,7 @@ def ingest(store: Path, tell: Tell, campaign: str) -> dict[str, Any]:
     from thermodata.store.ingest.run import ingest as run
     from thermodata.store.ingest.run import store_for
 
-    found = run(store_for(store, Path(campaign)), campaign, _Told(tell))
+    found = run(store_for(store, Path(campaign)), campaign, _FilesTold(tell))
     summary = found.to_json()
     kept = {k: summary[k] for k in ("campaign", "tests", "files", "samples", "calibrations", "stale")}
     # what was lost, and what the engine wondered at, is read before anybody goes on
@@ -82,7 +82,7 @@ TASKS: dict[str, Task] = {
 }
 
 
-class _Told:
+class _FilesTold:
     """An ingest's progress as counted files."""
 
     def __init__(self, tell: Tell) -> None:

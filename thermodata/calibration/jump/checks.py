@@ -27,7 +27,7 @@ CROSSTALK_PCT = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class EvaluatedJump:
     """A jump test as it was evaluated. moves: the commanded ones [um]; crosstalk: other probe -> what it answers of the
     move [%]; plateaus: those between the moves, in order; unit: of the readings."""
 
@@ -39,30 +39,30 @@ class Seen:
     unit: str
 
 
-def rows(seen: Seen) -> list[Check]:
+def rows(seen: EvaluatedJump) -> list[Check]:
     """All checks of one jump test that can be made of it."""
     return [row for rule in _RULES if (row := rule(seen)) is not None]
 
 
-def the_moves_tell_the_sensitivity(seen: Seen) -> Check:
+def the_moves_tell_the_sensitivity(seen: EvaluatedJump) -> Check:
     advice = "move further or more often: the axis's positioning weighs too much on these moves"
     return _at_most("uncertainty_pct", seen.fit.uncertainty_pct, UNCERTAINTY_PCT, advice)
 
 
-def the_noise_is_small_beside_the_moves(seen: Seen) -> Check:
+def the_noise_is_small_beside_the_moves(seen: EvaluatedJump) -> Check:
     smallest = min(abs(m) for m in seen.moves)
     advice = "larger moves, or look for the noise: earthing, a turning spindle, a loose probe"
     return _at_most("noise_pct_of_move", 100.0 * seen.fit.noise_um / smallest, NOISE_PCT, advice)
 
 
-def all_steps_tell_the_same(seen: Seen) -> Check | None:
+def all_steps_tell_the_same(seen: EvaluatedJump) -> Check | None:
     if seen.fit.nonlinearity_pct is None:
         return None
     advice = "the steps give different sensitivities: is the probe within its linear range?"
     return _at_most("nonlinearity_pct", seen.fit.nonlinearity_pct, NONLINEARITY_PCT, advice)
 
 
-def nothing_drifts_meanwhile(seen: Seen) -> Check | None:
+def nothing_drifts_meanwhile(seen: EvaluatedJump) -> Check | None:
     fit = seen.fit
     if fit.drift_um is None:
         return None
@@ -70,7 +70,7 @@ def nothing_drifts_meanwhile(seen: Seen) -> Check | None:
     return _at_most("drift_pct", 100.0 * abs(fit.drift_um) / fit.span_um, DRIFT_PCT, advice)
 
 
-def no_other_probe_answers(seen: Seen) -> Check | None:
+def no_other_probe_answers(seen: EvaluatedJump) -> Check | None:
     if (most := _most_crosstalk(seen)) is None:
         return None
     advice = (
@@ -80,29 +80,29 @@ def no_other_probe_answers(seen: Seen) -> Check | None:
     return _at_most("crosstalk_pct", most[1], CROSSTALK_PCT, advice)
 
 
-def the_probe_itself_answers_most(seen: Seen) -> Check | None:
+def the_probe_itself_answers_most(seen: EvaluatedJump) -> Check | None:
     if (most := _most_crosstalk(seen)) is None:
         return None
     advice = f"'{most[0]}' answers the move of {seen.spec.axis} more than '{seen.spec.signal}': swapped cables?"
     return check("answers_most", most[1], 100.0, most[1] < 100.0, advice)
 
 
-def the_data_sheet_agrees(seen: Seen) -> Check | None:
+def the_data_sheet_agrees(seen: EvaluatedJump) -> Check | None:
     return None if seen.spec.gain is None else _data_sheet(seen.spec.gain, seen.fit, seen.unit)
 
 
-def such_a_probe_exists(seen: Seen) -> Check | None:
+def such_a_probe_exists(seen: EvaluatedJump) -> Check | None:
     return probe_exists(seen.spec, seen.moves, seen.fit, seen.unit)
 
 
-def the_plateaus_last_as_declared(seen: Seen) -> Check:
+def the_plateaus_last_as_declared(seen: EvaluatedJump) -> Check:
     plateaus, declared = seen.plateaus, seen.spec.dwell
     dwell = float(np.median([p.to_s - p.from_s for p in plateaus[1:-1]])) if len(plateaus) > 2 else declared
     advice = "the plateaus don't last as long as declared: are these the commanded moves?"
     return check("dwell_s", dwell, declared, DWELL[0] * declared <= dwell <= DWELL[1] * declared, advice)
 
 
-_RULES: Sequence[Callable[[Seen], Check | None]] = (
+_RULES: Sequence[Callable[[EvaluatedJump], Check | None]] = (
     the_moves_tell_the_sensitivity,
     the_noise_is_small_beside_the_moves,
     all_steps_tell_the_same,
@@ -115,7 +115,7 @@ _RULES: Sequence[Callable[[Seen], Check | None]] = (
 )
 
 
-def _most_crosstalk(seen: Seen) -> tuple[str, float] | None:
+def _most_crosstalk(seen: EvaluatedJump) -> tuple[str, float] | None:
     """(the probe beside that answers most, how much [%]); None where none is known."""
     answers = {k: abs(c) for k, c in seen.crosstalk.items() if np.isfinite(c)}
     return max(answers.items(), key=lambda answer: answer[1]) if answers else None

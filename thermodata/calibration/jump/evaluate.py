@@ -78,7 +78,7 @@ def evaluate_jump(
         nonlinearity_pct=fit.nonlinearity_pct,
         drift_um=fit.drift_um,
         crosstalk=crosstalk,
-        checks=checks.rows(checks.Seen(spec, moves, fit, crosstalk, dwells, unit)),
+        checks=checks.rows(checks.EvaluatedJump(spec, moves, fit, crosstalk, dwells, unit)),
         detail={
             "unit_in": unit,
             "unit_out": "um",

@@ -22,7 +22,7 @@ _NAME = re.compile(r"(reader|effect)-([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
 @dataclass(frozen=True)
-class Made:
+class NewPlugin:
     """folder: where the plugin is. edited: the checkout's pyproject.toml, None outside one. run: what to do next."""
 
     name: str
@@ -35,7 +35,7 @@ class Made:
     run: tuple[str, ...]
 
 
-def write_plugin(name: str | None, here: Path) -> Made:
+def write_plugin(name: str | None, here: Path) -> NewPlugin:
     """Writes the plugin `name` as seen from the folder `here`.
 
     UsageError: a bad name (with the rule), a plugin or folder that exists, a pyproject.toml that can't be edited.
@@ -85,7 +85,7 @@ def write_plugin(name: str | None, here: Path) -> Made:
         path.write_text(content, encoding="utf-8", newline="\n")
     if pyproject:
         pyproject.write_text(text, encoding="utf-8", newline="")
-    return Made(name, kind, distribution, package, folder, tuple(files), pyproject, run)
+    return NewPlugin(name, kind, distribution, package, folder, tuple(files), pyproject, run)
 
 
 def checkout(here: Path) -> Path | None:

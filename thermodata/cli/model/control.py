@@ -98,7 +98,7 @@ def model_command(
     With --to yaml it is the model file of a version that 'add' made: edit it, and 'fit' it.
     """
     from thermodata.export.control import write
-    from thermodata.export.control.of_model import Asked, program_of
+    from thermodata.export.control.of_model import ProgramRequest, program_of
     from thermodata.export.control.write import files_of
     from thermodata.modelling.inputs import moved
     from thermodata.modelling.run import load
@@ -112,7 +112,7 @@ def model_command(
     stale = stale_line(store, loaded.identity)
     left_out = tuple(n.strip() for n in without.split(",") if n.strip())
     gains_of = dict(name_and_value(text, "a group", "EFFECT=VALUE, for example spindle_bearing=SP2") for text in groups)
-    asked = Asked(cycle, response, name, left_out, gains_of, limit, rate, hold, loaded.fitted_to, stale)
+    asked = ProgramRequest(cycle, response, name, left_out, gains_of, limit, rate, hold, loaded.fitted_to, stale)
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
     _refuse_to_replace([folder / n for n in files_of(program, target)], force)

@@ -20,7 +20,7 @@ from thermodata.schema.words.sentences import listed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.modelling.seen.as_system import Seen, SeenPath
+    from thermodata.modelling.seen.as_system import SeenPath, SeenResponse
     from thermodata.modelling.seen.residual_tests import Against
     from thermodata.store.catalogue.models.fits import StoredModel
 
@@ -110,7 +110,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
     session.answer(payload, lambda: fit_text(stored.result))
 
 
-def _only(seen: Seen, effects: tuple[str, ...]) -> Seen:
+def _only(seen: SeenResponse, effects: tuple[str, ...]) -> SeenResponse:
     from dataclasses import replace
 
     from thermodata.errors import unknown_name
@@ -130,7 +130,7 @@ def _only(seen: Seen, effects: tuple[str, ...]) -> Seen:
     )
 
 
-def _payload(seen: Seen) -> dict[str, Any]:
+def _payload(seen: SeenResponse) -> dict[str, Any]:
     return {
         "response": seen.response,
         "unit": seen.unit,
@@ -171,7 +171,7 @@ def _path(p: SeenPath) -> dict[str, Any]:
     }
 
 
-def _text(seen: Seen) -> str:
+def _text(seen: SeenResponse) -> str:
     parts = [f"{seen.response} [{seen.unit}], at its step of {seen.step_s:g} s"]
     rows = [
         {
@@ -209,7 +209,7 @@ def _coefficients(p: SeenPath) -> str:
     return "\n".join(lines)
 
 
-def _residual(seen: Seen) -> str:
+def _residual(seen: SeenResponse) -> str:
     from thermodata.modelling.seen.residual_tests import BY_THE_FIT, WHY_BY_THE_FIT
 
     step = seen.step_s
@@ -230,7 +230,7 @@ def _residual(seen: Seen) -> str:
     return "\n".join(lines)
 
 
-def _slope(seen: Seen, state: Against) -> str:
+def _slope(seen: SeenResponse, state: Against) -> str:
     """Of what hangs together not at all, none: what rounding leaves of it is no number to read."""
     from thermodata.modelling.seen.residual_tests import BY_THE_FIT
 

@@ -13,7 +13,7 @@ from thermodata.cli.terminal.common import Session, command
 from thermodata.errors import UsageError
 
 if TYPE_CHECKING:
-    from thermodata.virtual.blind.asked import Asked
+    from thermodata.virtual.blind.asked import BenchmarkRequest
 
 
 @command("benchmark-diagnosis")
@@ -67,16 +67,16 @@ def benchmark_diagnosis_command(
     for option, given in of_other.items():
         if given:
             raise UsageError(f"{option} does not go with --machine {machine}", hint="see benchmark-diagnosis --help")
-    from thermodata.virtual.blind.asked import Asked
+    from thermodata.virtual.blind.asked import BenchmarkRequest
     from thermodata.virtual.blind.seeds import seeds_of
     from thermodata.virtual.gantry.case import strata_of
 
     strata = strata_of(hide, logged=not not_logged) if machine == "gantry" else stratum
     used = seeds_of(first_seed, seeds, sealed)
-    _answer(session, Asked(machine, used, strata, jobs, not no_rivals, out, reliability))
+    _answer(session, BenchmarkRequest(machine, used, strata, jobs, not no_rivals, out, reliability))
 
 
-def _answer(session: Session, asked: Asked) -> None:
+def _answer(session: Session, asked: BenchmarkRequest) -> None:
     from thermodata.cli.terminal.progress import counting_line
     from thermodata.virtual.blind.wording import text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from thermodata.diagnosis.candidates.unread import AXIS, RUBS, Part, part_of
+from thermodata.diagnosis.candidates.unread import AXIS, RUBS, MachinePart, part_of
 from thermodata.effect.binding import Described
 from thermodata.plugin import Effect
 from thermodata.view.grid.dataset import TestData
@@ -28,12 +28,12 @@ def is_kept_from_the_tool(effect: Effect, channels: Iterable[Described], feedbac
 
 def kept_parts(
     library: Iterable[Effect], channels: Iterable[Described], feedback: Mapping[str, str]
-) -> frozenset[Part]:
+) -> frozenset[MachinePart]:
     """The parts of the axes that channels sit at which do nothing at the tool either, whether a sensor reads them or
     none: no heat may be theirs instead."""
     heats = {part.heat for c in channels if (part := part_of(c.at)) and part.heat.startswith(AXIS)}
     return frozenset(
-        Part(heat, part.name)
+        MachinePart(heat, part.name)
         for effect in library
         for need in effect.needs
         for place in need.places

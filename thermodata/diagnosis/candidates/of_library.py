@@ -10,7 +10,15 @@ import numpy as np
 from thermodata.diagnosis.candidates.feedback import is_kept_from_the_tool, kept_parts
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.seen import NOTHING, Seen
-from thermodata.diagnosis.candidates.unread import Part, is_holder, is_lesser, is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.candidates.unread import (
+    MachinePart,
+    is_holder,
+    is_lesser,
+    is_motion,
+    part_of,
+    parts_of,
+    unread,
+)
 from thermodata.diagnosis.candidates.warm_at_rest import is_at_table, turns
 from thermodata.diagnosis.question.present import (
     CONTROL,
@@ -192,7 +200,7 @@ class _Beside:
     usable: Mapping[str, ChannelInfo]
     model: ModelOf
     plain: tuple[Present, ...]
-    known: frozenset[Part]
+    known: frozenset[MachinePart]
     placed: bool
     seen: Seen
 

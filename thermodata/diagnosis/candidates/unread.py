@@ -24,7 +24,7 @@ TEMPERATURE = "temperature"
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class MachinePart:
     """heat: what is shared, `axis.z` or the air. name: of the part in it."""
 
     heat: str
@@ -43,7 +43,7 @@ POWER_OF = frozenset({"torque", "rotational_speed"})  # what together is a power
 MOTOR = "motor"  # it warms with all that its axis rubs
 
 
-def parts_of(effect: Effect, names: Iterable[str], channels: Mapping[str, Described]) -> frozenset[Part]:
+def parts_of(effect: Effect, names: Iterable[str], channels: Mapping[str, Described]) -> frozenset[MachinePart]:
     """The parts that an effect stands for: where its temperatures sit, or those that it is named for, of a motion. None
     where its channels sit in more than one heat: what it subtracts is a reference."""
     at = [(channels[n].quantity, part_of(channels[n].at)) for n in names if n in channels]
@@ -52,17 +52,17 @@ def parts_of(effect: Effect, names: Iterable[str], channels: Mapping[str, Descri
         return frozenset()
     named = {p.name for need in effect.needs for place in need.places if (p := part_of(place)) and p.name in RUBS}
     read = {part for quantity, part in at if part and part.name and quantity == TEMPERATURE}
-    return frozenset(read or {Part(heat, name) for name in named if heat != AIR})
+    return frozenset(read or {MachinePart(heat, name) for name in named if heat != AIR})
 
 
 def unread(
-    effect: Effect, names: Collection[str], channels: Mapping[str, Described], known: Collection[Part]
+    effect: Effect, names: Collection[str], channels: Mapping[str, Described], known: Collection[MachinePart]
 ) -> tuple[str, ...]:
     """Places of the parts that it may be as well; none for what doesn't sit in one heat. channels: the usable ones.
     known: parts that the model has."""
     if all(warms_the_holder(channels[n]) for n in names) or _take_up_power(names, channels):
         places = STANDS_IN_AIR[HOLDER]
-        told = Part(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
+        told = MachinePart(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
         motors = (place for place in motors_of(names, channels) if not reads(channels, place))
         return (*motors, *(() if told else places[:1]))
     heat = _one_heat(part_of(channels[n].at) for n in names)
@@ -78,7 +78,7 @@ def unread(
         places[0]
         for name, places in _places(heat).items()
         if name not in own
-        and Part(heat, name) not in known
+        and MachinePart(heat, name) not in known
         and not (warm and any(reads(channels, place) for place in places))
     ]
     # a motion of no part in particular is the only one that is left
@@ -111,7 +111,7 @@ def warms_the_holder(channel: Described) -> bool:
 
 def is_holder(channel: Described) -> bool:
     """Whether it is the temperature of what holds the probes, or of the tool that the spindle holds."""
-    held = part_of(channel.at) == Part(AIR, HOLDER) or holds("tool", channel.at)
+    held = part_of(channel.at) == MachinePart(AIR, HOLDER) or holds("tool", channel.at)
     return channel.quantity == TEMPERATURE and held
 
 
@@ -144,20 +144,20 @@ def _places(heat: str) -> dict[str, tuple[str, ...]]:
     return {part: tuple(f"{heat}.{word}" for word in words) for part, words in RUBS.items()}
 
 
-def _one_heat(parts: Iterable[Part | None]) -> str | None:
+def _one_heat(parts: Iterable[MachinePart | None]) -> str | None:
     heats = {part.heat if part else None for part in parts}
     return heats.pop() if len(heats) == 1 else None
 
 
-def part_of(place: str | None) -> Part | None:
+def part_of(place: str | None) -> MachinePart | None:
     """Of a place: the part, one without a name for a linear axis as a whole; None elsewhere."""
     for name, places in STANDS_IN_AIR.items():
         if any(holds(p, place) for p in places):
-            return Part(AIR, name)
+            return MachinePart(AIR, name)
     if place is None or not place.lower().startswith(AXIS):
         return None
     axis, _, below = place.lower().removeprefix(AXIS).partition(".")
     if axis != "{a}" and axis[:1] not in tuple(LINEAR):
         return None
     word = below.partition(".")[0]
-    return Part(AXIS + axis, next((part for part, words in RUBS.items() if word in words), word))
+    return MachinePart(AXIS + axis, next((part for part, words in RUBS.items() if word in words), word))

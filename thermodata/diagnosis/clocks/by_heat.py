@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.diagnosis.clocks.heat_balance import LEAST_TELLING, UNMOVED_S, Disagreement, Pair, pair_of
-from thermodata.diagnosis.clocks.sides import Key, Part, either, in_order, in_words, own_shifts, part_of, sides
+from thermodata.diagnosis.clocks.sides import Key, ShiftedPart, either, in_order, in_words, own_shifts, part_of, sides
 from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.places import holds
@@ -40,7 +40,7 @@ class Late:
     source: str | None
     shift_s: float
     of: Disagreement
-    part: Part | None = None
+    part: ShiftedPart | None = None
 
     @property
     def tests(self) -> Sequence[Key]:

@@ -26,7 +26,7 @@ Key = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class ShiftedPart:
     """off: tests that a shift is taken to hold in. right: those that tell that it does not. plain: whether that can be
     said. since, until: the first and the last of them, where the clock changed once."""
 
@@ -44,7 +44,7 @@ def in_order(tests: Sequence[TestData]) -> list[Key]:
     return [t.key for t in sorted(tests, key=lambda t: t.start_unix_s or 0.0)]
 
 
-def part_of(order: Sequence[Key], off: Collection[Key], right: Collection[Key]) -> Part:
+def part_of(order: Sequence[Key], off: Collection[Key], right: Collection[Key]) -> ShiftedPart:
     """Which tests of all, in their order, a shift holds in, if it does so in some and not in others.
 
     A test that tells neither goes with those before and behind it, if these agree. A clock that changes once may be
@@ -63,7 +63,7 @@ def part_of(order: Sequence[Key], off: Collection[Key], right: Collection[Key]) 
     taken = tuple(key for i, key in enumerate(order) if len(told) and holds(i))
     kept = tuple(key for key in order if key in right)
     once = changes == 1
-    return Part(
+    return ShiftedPart(
         taken,
         kept,
         plain=changes <= 1 or 2 * int(is_off.sum()) < len(told),
@@ -72,7 +72,7 @@ def part_of(order: Sequence[Key], off: Collection[Key], right: Collection[Key]) 
     )
 
 
-def in_words(part: Part | None) -> str:
+def in_words(part: ShiftedPart | None) -> str:
     """' from run06 on (run06 and run07), while in run05 they agree as they were logged'; '' for no part."""
     if part is None:
         return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from thermodata.diagnosis.clocks.sides import Key, Part, in_words, part_of
+from thermodata.diagnosis.clocks.sides import Key, ShiftedPart, in_words, part_of
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 from thermodata.schema.words.sentences import in_percent
@@ -35,7 +35,7 @@ class Timing:
     test: str = ""
     chance: float = 0.0
     all_s: float = 0.0
-    part: Part | None = None
+    part: ShiftedPart | None = None
 
     @property
     def key(self) -> Key:
@@ -84,7 +84,9 @@ class Timings:
             found += single if 2 * len(single) < len(told) else []
         return found
 
-    def _part(self, all_s: float, asked: list[Timing], single: list[Timing], order: Sequence[Key]) -> Part | None:
+    def _part(
+        self, all_s: float, asked: list[Timing], single: list[Timing], order: Sequence[Key]
+    ) -> ShiftedPart | None:
         """The tests in which a clock is off, where some tell that it is not; None where that is no part of them. all_s:
         by which all are moved, and single ones are off beyond it."""
         near_s = GIVE_OR_TAKE * self.step_s

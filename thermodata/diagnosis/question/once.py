@@ -20,7 +20,7 @@ LEAST_SAMPLES = 30  # that are equal to the last digit, and not all one value
 
 
 @dataclass(frozen=True, slots=True)
-class Again:
+class RepeatedSamples:
     """A test of which `samples`, shape (n,), stand in another one before it, too. whole: no measured one is left."""
 
     test: TestData
@@ -31,10 +31,10 @@ class Again:
 
 def each_once(
     data: Dataset, tests: Sequence[TestData], channel: Callable[[TestData], str]
-) -> tuple[Dataset, list[TestData], list[Again]]:
+) -> tuple[Dataset, list[TestData], list[RepeatedSamples]]:
     """(the same with samples that stand in an earlier one of the tests not valid, those of the tests that have some
     left, what was found). channel: of the response, in a test. Drivers stay: what they did is no evidence."""
-    found: list[Again] = []
+    found: list[RepeatedSamples] = []
     for number, one in enumerate(tests):
         found += [a for other in tests[:number] if (a := again(one, other, channel, data.step_s)) is not None]
     changed = {t.key: _without(t, channel(t), [a.samples for a in found if a.test is t]) for t in tests}
@@ -44,18 +44,18 @@ def each_once(
     return replace(data, tests=tuple(changed.get(t.key) or t for t in data.tests)), kept, told
 
 
-def again(one: TestData, other: TestData, channel: Callable[[TestData], str], step_s: float) -> Again | None:
+def again(one: TestData, other: TestData, channel: Callable[[TestData], str], step_s: float) -> RepeatedSamples | None:
     """What of one test stands in the other; None where nothing does. step_s: of the grid, on which each sample is a
     mean: one that holds any of the other's is the other's."""
     mine, theirs = channel(one), channel(other)
     if mine == theirs and same_recording(one, other, mine):
-        return Again(one, other, np.ones(len(one.t_s), bool), whole=True)
+        return RepeatedSamples(one, other, np.ones(len(one.t_s), bool), whole=True)
     spans = shared_spans(one, other, mine, theirs)
     samples = np.zeros(len(one.t_s), bool)
     for from_s, to_s in spans:
         samples |= (one.t_s > from_s - step_s) & (one.t_s < to_s + step_s)
     samples &= one.sampled(mine)
-    return Again(one, other, samples, whole=False) if samples.any() else None
+    return RepeatedSamples(one, other, samples, whole=False) if samples.any() else None
 
 
 def same_recording(one: TestData, other: TestData, response: str) -> bool:
@@ -68,14 +68,14 @@ def same_recording(one: TestData, other: TestData, response: str) -> bool:
     return enough and np.array_equal(one.t_s, other.t_s) and np.array_equal(a, b, equal_nan=True)
 
 
-def as_artefacts(found: Sequence[Again]) -> list[Artefact]:
+def as_artefacts(found: Sequence[RepeatedSamples]) -> list[Artefact]:
     return [
         Artefact(kind="copy", campaign=a.test.campaign, test=a.test.test, at_s=None, size_um=None, why=_why(a))
         for a in found
     ]
 
 
-def _why(found: Again) -> str:
+def _why(found: RepeatedSamples) -> str:
     one, other = found.test, found.other
     name = other.test if other.campaign == one.campaign else "/".join(other.key)
     times = one.t_s[found.samples]

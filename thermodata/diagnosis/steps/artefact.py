@@ -50,7 +50,7 @@ NOTHING_ELSEWHERE = "no speed, feed, position or switch does that elsewhere"
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class BlockCommands:
     """The commands of one block. explain: whether one makes the step before a sample; change_at: which change there."""
 
     explain: Callable[[int], bool]
@@ -87,7 +87,7 @@ def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step
     """through: whether it was measured all the time, so that what nothing else is as sudden as stands out."""
     commands, steps = commands_of(problem), []
     for k, block in enumerate(problem.blocks):
-        own = Asked(partial(commands.explain, k), partial(commands.change_at, k))
+        own = BlockCommands(partial(commands.explain, k), partial(commands.change_at, k))
         steps += _steps_in(block, problem, tread, own, through)
     return steps
 
@@ -105,7 +105,7 @@ def noise_with_treads(problem: Problem) -> float:
     return max(problem.noise, tread_of_response(problem) / float(np.sqrt(12)))
 
 
-def _steps_in(block: Block, problem: Problem, tread: float, commands: Asked, through: bool) -> list[Step]:
+def _steps_in(block: Block, problem: Problem, tread: float, commands: BlockCommands, through: bool) -> list[Step]:
     r, y, t = block.residual, block.response, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
@@ -146,7 +146,7 @@ def _steps_in(block: Block, problem: Problem, tread: float, commands: Asked, thr
     return steps
 
 
-def _uncommanded(r: Float1D, t: Float1D, side: int, commands: Asked, least: float) -> tuple[int, float]:
+def _uncommanded(r: Float1D, t: Float1D, side: int, commands: BlockCommands, least: float) -> tuple[int, float]:
     """(sample before which r changes most suddenly of what no command explains, how many times as suddenly as of that
     anything else does, ten at most); 0 times where all that is as large as `least` is explained.
 

@@ -20,7 +20,7 @@ from thermodata.draft.times.zones_before import ZonesBefore
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class BesideSource:
     """What stands beside a source. groups: all of the folder, its own among them. aligned: source -> its clock against
     another's. ignored: (path, reason) of files that are left out. before: the zones of local times that the campaign
     file before declared."""
@@ -33,12 +33,12 @@ class Beside:
     before: ZonesBefore
 
 
-def drafted_sources(beside: Beside) -> tuple[DraftSource, ...]:
+def drafted_sources(beside: BesideSource) -> tuple[DraftSource, ...]:
     """One a group."""
     return tuple(_source(group, beside) for group in beside.groups)
 
 
-def _source(group: Group, beside: Beside) -> DraftSource:
+def _source(group: Group, beside: BesideSource) -> DraftSource:
     zone = zone_as_before(group, beside.groups, beside.before.of(group))
     return DraftSource(
         group.source,
@@ -53,7 +53,7 @@ def _source(group: Group, beside: Beside) -> DraftSource:
     )
 
 
-def _questions(group: Group, beside: Beside, *, zone_known: bool) -> Iterator[str | None]:
+def _questions(group: Group, beside: BesideSource, *, zone_known: bool) -> Iterator[str | None]:
     yield from (hinted(a, group, beside.groups) for a in group.asks)
     if not zone_known and (asked := zone_question(group, beside.groups, beside.folder)):
         yield asked + beside.before.said()
@@ -64,7 +64,7 @@ def _questions(group: Group, beside: Beside, *, zone_known: bool) -> Iterator[st
     yield from packed_pieces(group, beside.ignored)
 
 
-def _of_clocks(group: Group, beside: Beside) -> tuple[str | None, ...]:
+def _of_clocks(group: Group, beside: BesideSource) -> tuple[str | None, ...]:
     """Questions about when a source began, unless its clock is had from another's, times that repeat
     and a clock that was set."""
     known = group.source in beside.aligned or any(a.there == group.source for a in beside.aligned.values())

@@ -27,7 +27,7 @@ from thermodata.draft.words.roles import said_by_list
 
 
 @dataclass(frozen=True, slots=True)
-class _Beside:
+class _BesideTest:
     """What is known of a test beside its files. listed: its row of the table of tests; began: when it began by that;
     warm: the doubt that it began at rest; version: a log that this one may be another version of; otherwise: what its
     logs say of when it ran that the table does not."""
@@ -62,14 +62,14 @@ def drafted_tests(
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
     otherwise = not_as_listed(recordings, times)
     beside = {
-        t: _Beside(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), otherwise.get(t, ()))
+        t: _BesideTest(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), otherwise.get(t, ()))
         for t in ids
     }
     return tuple(_drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t]) for t in ids)
 
 
 def _drafted(
-    test: str, files: Sequence[RawFile], groups: Sequence[Group], measuring: Measuring | None, beside: _Beside
+    test: str, files: Sequence[RawFile], groups: Sequence[Group], measuring: Measuring | None, beside: _BesideTest
 ) -> DraftTest:
     listed, version = beside.listed, beside.version
     kind = kind_of(test, files, listed)

@@ -12,7 +12,7 @@ from thermodata.draft.campaign.among_channels.feeds_of_positions import feeds_of
 from thermodata.draft.campaign.among_channels.siblings import beside_each_other
 from thermodata.draft.campaign.among_channels.speeds_told import with_told_speeds
 from thermodata.draft.campaign.channels.channels import channels_of
-from thermodata.draft.campaign.drafted_sources import Beside, drafted_sources
+from thermodata.draft.campaign.drafted_sources import BesideSource, drafted_sources
 from thermodata.draft.campaign.drafted_tests import drafted_tests
 from thermodata.draft.campaign.files_apart import files_apart
 from thermodata.draft.campaign.hardly_looked_at import hardly_looked_at
@@ -47,7 +47,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     of_groups = _channels(groups, of_probes)
     keyed = of_groups.keyed
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    beside = Beside(folder, groups, aligned, table, found.ignored, before)
+    beside = BesideSource(folder, groups, aligned, table, found.ignored, before)
     sources = asked_once(drafted_sources(beside), groups)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)

@@ -22,7 +22,7 @@ _PAUSE = 3.0  # times its usual step, and a log of another source stood between 
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class SignalBeside:
     """A signal at the times of a probe. before, after: its rows about each of these times, shape (n,); the same where
     it has a row there, or is held from row to row. elsewhere: logged by another source."""
 
@@ -46,7 +46,7 @@ def beside(
     home: RawFile,
     t_ns: Int1D,
     clocks: Mapping[int, OneClock] = _NO_CLOCKS,
-) -> Iterator[tuple[Beside, ...]]:
+) -> Iterator[tuple[SignalBeside, ...]]:
     """The signals of a probe's own file at its times t_ns, shape (n,); then with those of the files of other sources:
     by what is guessed of their clocks, then as if their local times were off by whole half hours. Nothing of what is
     not dated or does not run beside it. clocks: id of a file -> its clock."""
@@ -66,11 +66,11 @@ def beside(
             yield (*own, *others)
 
 
-def _of(file: RawFile, names: Named, t_ns: Int1D, elsewhere: bool) -> tuple[Beside, ...]:
+def _of(file: RawFile, names: Named, t_ns: Int1D, elsewhere: bool) -> tuple[SignalBeside, ...]:
     found = []
     for key, course in file.sample.courses.items():
         if key in names and (rows := _rows(course, t_ns, elsewhere)) is not None:
-            found.append(Beside(*names[key], course.values[rows[0]], course.values[rows[1]], elsewhere))
+            found.append(SignalBeside(*names[key], course.values[rows[0]], course.values[rows[1]], elsewhere))
     return tuple(found)
 
 

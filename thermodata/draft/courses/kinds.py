@@ -15,7 +15,7 @@ from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import says
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.roles import said_by_name
-from thermodata.draft.words.said_by_names import Said, said_by
+from thermodata.draft.words.said_by_names import SaidByNames, said_by
 
 _KINDS: tuple[tuple[str, str], ...] = (
     (
@@ -156,7 +156,7 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 
 
-def _day_said(said: Said) -> str:
+def _day_said(said: SaidByNames) -> str:
     """What to ask of the start of a test whose name says its day; '' where it says none."""
     days = said.days or tuple(filter(None, [said.conditions.get("date")]))
     if not days:
@@ -218,7 +218,9 @@ def _by_data(moved: Moved) -> str | None:
     return "etve"
 
 
-def _conditions(said: Said, moved: Moved, files: Sequence[RawFile]) -> tuple[dict[str, str], list[str], list[str]]:
+def _conditions(
+    said: SaidByNames, moved: Moved, files: Sequence[RawFile]
+) -> tuple[dict[str, str], list[str], list[str]]:
     """(conditions, how sure each is, what to ask), the names held against what the recordings show."""
     found, questions, comments = dict(said.conditions), list(said.questions), []
     told = {k for k in found if k not in said.guessed}

@@ -9,7 +9,7 @@ from itertools import combinations
 
 import numpy as np
 
-from thermodata.draft.courses.beside import Beside, beside
+from thermodata.draft.courses.beside import SignalBeside, beside
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.probes.out_of_range import LEAST, out_of_range
 from thermodata.draft.times.clocks import Named
@@ -56,7 +56,7 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named], clocks: Mappin
     return None
 
 
-def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_state(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     for one in signals:
         if one.quantity != "state":
             continue
@@ -66,7 +66,7 @@ def _by_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
     return None
 
 
-def _by_named_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_named_state(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     """A state that by its name says when is measured: on its way to the rest a probe may be in range as well."""
     for one in signals:
         if one.quantity != "state" or not says(MEASURES, words(one.channel)):
@@ -79,7 +79,7 @@ def _by_named_state(signals: Sequence[Beside], out: Bool1D) -> str | None:
     return None
 
 
-def _by_position(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_position(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     """An axis at a point, or several at once where each passes there by itself."""
     points = [p for b in signals if b.quantity == "position" and (p := _point(b, out)) is not None]
     for many in range(1, 1 + min(len(points), _MOST_AXES)):
@@ -109,7 +109,7 @@ class _Point:
     after: Float1D
 
 
-def _point(one: Beside, out: Bool1D) -> _Point | None:
+def _point(one: SignalBeside, out: Bool1D) -> _Point | None:
     moves = np.abs(one.after - one.before)
     known = ~out & np.isfinite(moves)
     if not known.any():
@@ -123,12 +123,12 @@ def _farthest(distances: Sequence[Float1D]) -> Float1D:
     return np.asarray(np.max(distances, axis=0))
 
 
-def _by_feed(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_feed(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     """A feed that is 0 exactly while the probe has a reading, whatever its unit."""
     return next((f"{b.channel} == 0" for b in signals if b.quantity == "feed" and _agree(b, _stands, ~out)), None)
 
 
-def _by_feeds(signals: Sequence[Beside], out: Bool1D) -> str | None:
+def _by_feeds(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     """All feeds, and speeds of tables and axes, that move while the probe has no reading, and then only."""
     moving = []
     stand, sure = np.ones(out.size, dtype=bool), np.ones(out.size, dtype=bool)
@@ -152,7 +152,7 @@ def _stands(x: Float1D) -> Bool1D:
     return np.asarray(x == 0)
 
 
-def _agree(one: Beside, rule: Callable[[Float1D], Bool1D], measured: Bool1D) -> bool:
+def _agree(one: SignalBeside, rule: Callable[[Float1D], Bool1D], measured: Bool1D) -> bool:
     return _agrees(*one.told(rule), measured)
 
 

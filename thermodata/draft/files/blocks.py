@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.draft.files.raw_file import Asked, Part, RawFile, described_file
+from thermodata.draft.files.raw_file import FileQuestion, RawFile, RowsOfTest, described_file
 from thermodata.draft.files.sample import Watch, sample_of
 from thermodata.draft.signals.numerals import bare_word
 from thermodata.draft.words.naming import words
@@ -56,7 +56,7 @@ class _Run:
     last: int
 
 
-class _Kept:
+class _BlockRows:
     """The rows of one block, as a reader gives them that is asked for no others."""
 
     formats = ()
@@ -171,7 +171,7 @@ def by_tests(
     if not looked.rows or looked.no_names:
         return [file]
     asked = f"'{named[0].name}' may name tests, one below the other: then write each with its window: [from, to]"
-    open_still = replace(file, asked=(*file.asked, Asked(asked, {})))
+    open_still = replace(file, asked=(*file.asked, FileQuestion(asked, {})))
     t_ns, runs = looked.t_ns, looked.runs
     if not looked.whole:
         return [open_still]
@@ -185,15 +185,17 @@ def by_tests(
     if (np.diff(t_ns) < 0).any():
         return [open_still]
     if anew or declare:
-        file = replace(file, asked=(*file.asked, Asked(_ANEW if anew else _NO_SERIES, declare)))
+        file = replace(file, asked=(*file.asked, FileQuestion(_ANEW if anew else _NO_SERIES, declare)))
     left = replace(file.recording, signals=tuple(s for s in file.signals if s is not named[0]))
     delivered = file.delivered or file.recording
     found, rows = [], _InTurn(guarded(who, full, file.source, delivered))
     for run, following in zip(runs, [*runs[1:], None], strict=True):
-        kept = _Kept(file.reader, delivered, rows.of(run))
+        kept = _BlockRows(file.reader, delivered, rows.of(run))
         sample = sample_of(full, kept, file.source, delivered, file.size)
         window = _window(t_ns, run, following)
-        found.append(replace(file, recording=left, delivered=delivered, block=Part(run.word, window), sample=sample))
+        found.append(
+            replace(file, recording=left, delivered=delivered, block=RowsOfTest(run.word, window), sample=sample)
+        )
     return found
 
 

@@ -40,7 +40,7 @@ _NO_START = "none if it is no start"
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class FileQuestion:
     """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes; times: columns
     that are the time once it is answered; told: whether it is answered already, and `ask` says by what; begins_s: where
     the times of the column begin that it proposes."""
@@ -53,7 +53,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class RowsOfTest:
     """Rows of a table that are one of the tests in it. window: from and to, since the first row of the table [s];
     said: by what, where no column of it names the test."""
 
@@ -77,10 +77,10 @@ class RawFile:
     size: int = 0
     sample: Sample = field(default_factory=Sample)
     like: str | None = None
-    asked: tuple[Asked, ...] = ()
+    asked: tuple[FileQuestion, ...] = ()
     table: Mapping[str, Any] | None = None
     sheet: str | None = None
-    block: Part | None = None
+    block: RowsOfTest | None = None
     besides: tuple[str, ...] = ()
     letters: str | None = None
     delivered: Recording | None = None
@@ -212,18 +212,24 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
             if len(asked) == _MOST_QUESTIONS:
                 raise
             told = offered_by_ini(full) if question.ask.startswith("period") else ""
-            asked.append(Asked(question.ask + told, question.declare, question.times, begins_s=question.begins_s))
+            asked.append(
+                FileQuestion(question.ask + told, question.declare, question.times, begins_s=question.begins_s)
+            )
             table = merged(table, question.meanwhile)
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
-        asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
-        asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
-        asked += [Asked(_asked_unread(n), _START) for n in recording.notes if UNREAD in n]
-        asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
-    asked += [Asked(f"stands: {n}", {}) for n in recording.notes if DOUBT in n]
+        asked += [
+            FileQuestion("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n
+        ]
+        asked += [FileQuestion(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
+        asked += [FileQuestion(_asked_unread(n), _START) for n in recording.notes if UNREAD in n]
+        asked += [
+            FileQuestion(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n
+        ]
+    asked += [FileQuestion(f"stands: {n}", {}) for n in recording.notes if DOUBT in n]
     left = _without_times(recording, {name for a in asked for name in a.times})
     signals, as_units = with_names_as_units(left.signals)
     if as_units is not None:
-        left, asked = replace(left, signals=signals), [*asked, Asked(as_units, {})]
+        left, asked = replace(left, signals=signals), [*asked, FileQuestion(as_units, {})]
     return replace(file, recording=left, delivered=recording, asked=tuple(asked), table=table or None)
 
 
@@ -234,17 +240,17 @@ def _without_times(recording: Recording, times: Set[str]) -> Recording:
     return replace(recording, signals=left) if left else recording
 
 
-def _open_order(note: str) -> Asked | None:
+def _open_order(note: str) -> FileQuestion | None:
     """The question of a note on a start or on dates whose day and month may be either way round; None of others."""
     if BY_HALF in note and note.startswith("dates read as"):
-        return Asked(f"format of the dates: dmy or mdy? {_BY_HALF}", _FORMAT)
+        return FileQuestion(f"format of the dates: dmy or mdy? {_BY_HALF}", _FORMAT)
     if EITHER in note:
-        return Asked(
+        return FileQuestion(
             f"start: dmy or mdy? {note.split(EITHER)[0].rstrip(', ')}, which may be either; {_NO_START}", _START
         )
     if BY_HALF in note:
         said = re.sub("^.* above the rows: ", "the head says ", note.split(", read " + BY_HALF)[0])
-        return Asked(f"start: dmy or mdy? {said}, which may be either: {_BY_HALF}; {_NO_START}", _START)
+        return FileQuestion(f"start: dmy or mdy? {said}, which may be either: {_BY_HALF}; {_NO_START}", _START)
     return None
 
 

@@ -22,7 +22,7 @@ from thermodata.schema.files.tests_from import pattern_of
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class KnownSource:
     """A source of a known campaign. patterns: as the files of the folder are called; signals: that are wanted of it."""
 
     name: str
@@ -31,11 +31,13 @@ class Known:
     signals: tuple[str, ...]
 
 
-def tests_by_patterns(folder: Path, sources: Sequence[Known], names: Sequence[str]) -> dict[str, dict[str, list[str]]]:
+def tests_by_patterns(
+    folder: Path, sources: Sequence[KnownSource], names: Sequence[str]
+) -> dict[str, dict[str, list[str]]]:
     """Test -> source -> its files. names: of all files in the folder."""
     read: dict[tuple[str, str], RawFile] = {}
 
-    def file(source: Known, name: str) -> RawFile:
+    def file(source: KnownSource, name: str) -> RawFile:
         if (source.name, name) not in read:
             read[source.name, name] = _looked_at(folder, source, name)
         return read[source.name, name]
@@ -125,12 +127,12 @@ def _is_there(signal: str, file: RawFile) -> bool:
     return True
 
 
-def _letters(source: Known, name: str) -> int:
+def _letters(source: KnownSource, name: str) -> int:
     """How much of a name the pattern says that fits it."""
     return max(len(re.sub(r"\{test\}|\*", "", p)) for p in source.patterns if pattern_of(p).fullmatch(name))
 
 
-def _looked_at(folder: Path, source: Known, name: str) -> RawFile:
+def _looked_at(folder: Path, source: KnownSource, name: str) -> RawFile:
     """A file as the source's reader tells of it, with a sample; without anything where it can't be read, which is told
     where it is."""
     path, table = PurePosixPath(name), source.spec.table

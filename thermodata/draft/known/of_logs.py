@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic import Field
 
 from thermodata.calibration.expression.parser import parse
-from thermodata.draft.known.by_patterns import Known, tests_by_patterns
+from thermodata.draft.known.by_patterns import KnownSource, tests_by_patterns
 from thermodata.errors import UsageError
 from thermodata.reader.finding.registry import files_in
 from thermodata.schema.files.campaign import Campaign, SourceSpec, Test
@@ -44,7 +44,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
     """
     wanted = _with_their_parts(known, channels)
     sources: dict[str, SourceSpec] = {}
-    read: list[Known] = []
+    read: list[KnownSource] = []
     names = _files(folder)
     for name, spec in known.sources.items():
         if name not in {known.channels[c].source for c in wanted}:
@@ -52,7 +52,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
         files = _fitting(name, spec, names, (known.id, folder))
         sources[name] = spec.model_copy(update={"files": files, "clock": _clock(spec, known, wanted)})
         signals = [c.signal for n, c in known.channels.items() if n in wanted and c.source == name and c.signal]
-        read.append(Known(name, spec, tuple(files), tuple(signals)))
+        read.append(KnownSource(name, spec, tuple(files), tuple(signals)))
     tests = tests_by_patterns(folder, read, names)
     if not tests:
         raise UsageError(

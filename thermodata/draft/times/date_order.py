@@ -11,7 +11,7 @@ from typing import Any
 
 from thermodata.archive.members import standing
 from thermodata.draft.files.day_in_name import day_of_name
-from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_file
+from thermodata.draft.files.raw_file import FileQuestion, RawFile, merged, sample_of_file
 from thermodata.draft.folder.into_sources.sources import Group, sources_of
 from thermodata.draft.folder.into_tests.group import tests_of
 from thermodata.draft.times.hints import fitting_others, swapped
@@ -174,7 +174,7 @@ def _declared(file: RawFile, order: str) -> RawFile:
 def _told(folder: Path, file: RawFile, order: str, why: str) -> RawFile:
     """The file as it is with this order. It was looked at as the first of them."""
     asked = tuple(
-        Asked(why, _format(order), a.times, told=True) if a.ask.startswith(_EITHER) else a for a in file.asked
+        FileQuestion(why, _format(order), a.times, told=True) if a.ask.startswith(_EITHER) else a for a in file.asked
     )
     file = replace(_declared(file, order), asked=asked)
     if order == _ORDERS[0] or file.like:

@@ -48,7 +48,7 @@ _FIRST_YEAR = 2015  # that two digits of a date are of, up to now
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class SaidByNames:
     """conditions: condition -> value with unit, of which the names leave no other reading; guessed: those that are
     likely only; speeds: what a speed may be [rpm], where there are several readings; start: date and time of day; days:
     what a date with a year of two digits may be; questions: what to ask."""
@@ -61,13 +61,20 @@ class Said:
     questions: tuple[str, ...] = ()
 
 
-def said_by(names: Sequence[str]) -> Said:
+def said_by(names: Sequence[str]) -> SaidByNames:
     """What names say. names: of the test, of its folders and files, the one that counts most first."""
     texts = [_plain(n) for n in names]
     likely = tool_and_coolant(names)
     speed, date = _speed(texts), _date(texts)
-    all_of_it = (speed, _feed(texts), _air(texts), _air_conditioning(texts), Said(likely, frozenset(likely)), date)
-    return Said(
+    all_of_it = (
+        speed,
+        _feed(texts),
+        _air(texts),
+        _air_conditioning(texts),
+        SaidByNames(likely, frozenset(likely)),
+        date,
+    )
+    return SaidByNames(
         conditions={condition: value for said in all_of_it for condition, value in said.conditions.items()},
         guessed=frozenset(condition for said in all_of_it for condition in said.guessed),
         speeds=speed.speeds,
@@ -94,75 +101,77 @@ def _value(text: str, thousands: bool = False) -> float:
     return float(text.replace(",", ".")) * (1000 if thousands else 1)
 
 
-def _speed(texts: Sequence[str]) -> Said:
+def _speed(texts: Sequence[str]) -> SaidByNames:
     """The speed or the schedule; the readings of a speed that has several, and which is asked."""
     texts = [_DATE.sub(" ", t) for t in texts]  # 'speed-2026-09-01' says none
     if match := _first(_SCHEDULE, texts):
         parts = re.split(r"[+>-]", match[1] or match[3])
         thousands = (match[2] or match[4] or "").startswith("k") or parts[-1].endswith("k")
         levels = [_value(p.rstrip("k"), p.endswith("k") or (thousands and _value(p.rstrip("k")) < 100)) for p in parts]
-        return Said({"schedule": ", ".join(f"{v:g} rpm" for v in levels)})
+        return SaidByNames({"schedule": ", ".join(f"{v:g} rpm" for v in levels)})
     if match := _first(_EITHER, texts):
         one, other = _value(f"{match[1]}.{match[2]}", True), _value(match[2], True)
         asked = f"speed: '{match[0]}' is {one:g} rpm, or number {match[1]} at {other:g} rpm?"
-        return Said(speeds=(one, other), questions=(asked,))
+        return SaidByNames(speeds=(one, other), questions=(asked,))
     for match in (m for t in texts for m in _SAID_SPEED.finditer(t)):
         number, k = (match[1], match[2] or match[0].find("krpm") > 0) if match[1] else (match[3], match[4])
         if not match[1] and not k and _value(number) < _LEAST_RPM:
             continue  # 'sp1' is the first spindle, or the first run
-        return Said({"speed": f"{_value(number, bool(k)):g} rpm"})
+        return SaidByNames({"speed": f"{_value(number, bool(k)):g} rpm"})
     for match in (m for t in texts for m in _LETTER.finditer(t)):
         digits = match[1] or match[2]
         if not digits.startswith("0") and (len(digits) > 3 or int(digits) % 50 == 0):
-            return Said({"speed": f"{int(digits)} rpm"})
+            return SaidByNames({"speed": f"{int(digits)} rpm"})
     if match := _first(_THOUSANDS, texts):
-        return Said({"speed": f"{_value(match[1], True):g} rpm"}, frozenset({"speed"}))
-    return Said()
+        return SaidByNames({"speed": f"{_value(match[1], True):g} rpm"}, frozenset({"speed"}))
+    return SaidByNames()
 
 
-def _feed(texts: Sequence[str]) -> Said:
+def _feed(texts: Sequence[str]) -> SaidByNames:
     """The feed; asked where the name has no unit, which its size tells."""
     match = _first(_FEED_UNIT, texts) or _first(_FEED, texts)
     if match is None or (match[1].startswith("0") and len(match[1]) > 1):
-        return Said()
+        return SaidByNames()
     value = _value(match[1])
     unit = f"{match[2]}/min" if match[2] else "mm/min" if value >= 100 else "m/min"
-    return Said({"feed": f"{value:g} {unit}"}, questions=() if match[2] else (f"feed in {unit}?",))
+    return SaidByNames({"feed": f"{value:g} {unit}"}, questions=() if match[2] else (f"feed in {unit}?",))
 
 
-def _air(texts: Sequence[str]) -> Said:
+def _air(texts: Sequence[str]) -> SaidByNames:
     """The temperature of the air, or its course; degrees of which no word says whose they are are asked."""
     if match := _first(_COURSE, texts):
-        return Said({"air": f"{_value(match[1]):g} degC to {_value(match[2]):g} degC"}, frozenset({"air"}))
+        return SaidByNames({"air": f"{_value(match[1]):g} degC to {_value(match[2]):g} degC"}, frozenset({"air"}))
     if match := _first(_AT, texts):
-        return Said({"air": f"{_value(match[2]):g} degC"})
+        return SaidByNames({"air": f"{_value(match[2]):g} degC"})
     if (match := _first(_SOME_DEGREES, texts)) and not re.match(r"-?0\d", match[1]):  # '02_C' is number 2 of axis C
-        return Said(questions=(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}",))
-    return Said()
+        return SaidByNames(
+            questions=(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}",)
+        )
+    return SaidByNames()
 
 
-def _air_conditioning(texts: Sequence[str]) -> Said:
+def _air_conditioning(texts: Sequence[str]) -> SaidByNames:
     match = _first(_CONDITIONED, texts)
     if match is None:
-        return Said()
-    return Said({"air_conditioning": "off" if match[1] in _WITHOUT else "on"}, frozenset({"air_conditioning"}))
+        return SaidByNames()
+    return SaidByNames({"air_conditioning": "off" if match[1] in _WITHOUT else "on"}, frozenset({"air_conditioning"}))
 
 
-def _date(texts: Sequence[str]) -> Said:
+def _date(texts: Sequence[str]) -> SaidByNames:
     """The date, and with a time of day the moment; the days that a date with a year of two digits may be."""
     match = next((m for t in texts if (m := _DATE.search(t)) and m[5]), None) or _first(_DATE, texts)
     if match is not None:
         return _at(f"{match[1]}-{match[3]}-{match[4]}", match.groups()[4:])
     if match := _first(_DATE_DMY, texts):
         return _at(f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}", match.groups()[3:])
-    return Said(days=_short_dates(texts))
+    return SaidByNames(days=_short_dates(texts))
 
 
-def _at(date: str, clock: Sequence[str | None]) -> Said:
+def _at(date: str, clock: Sequence[str | None]) -> SaidByNames:
     """A date, and the moment where a name has a time of day too. clock: hour, minute, second, None where there is
     none."""
     hour, minute, second = clock
-    return Said({"date": date}, start=None if hour is None else f"{date} {hour}:{minute}:{second or '00'}")
+    return SaidByNames({"date": date}, start=None if hour is None else f"{date} {hour}:{minute}:{second or '00'}")
 
 
 def _short_dates(texts: Sequence[str]) -> tuple[str, ...]:

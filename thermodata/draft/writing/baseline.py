@@ -25,7 +25,7 @@ _SHOWN = 12
 
 
 @dataclass(frozen=True, slots=True)
-class _Known:
+class _KnownChannel:
     """What is known of a channel."""
 
     quantity: str
@@ -36,14 +36,14 @@ class _Known:
 def model_text(draft: Draft) -> str | None:
     """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
     said = {c.name: c.said for c in draft.channels}
-    known = {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
-    return _text(draft.campaign, {**known, **{c.name: _Known(c.quantity, c.at, None) for c in draft.derived}})
+    known = {n: _KnownChannel(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
+    return _text(draft.campaign, {**known, **{c.name: _KnownChannel(c.quantity, c.at, None) for c in draft.derived}})
 
 
 def responses_of_draft(draft: Draft) -> list[str]:
     """The displacements of the tool that the first model of a draft is of, or could be: the one that it takes first."""
     said = {c.name: c.said for c in draft.channels}
-    channels = {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
+    channels = {n: _KnownChannel(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
     axes = _axes(channels)
     found = [n for n, c in channels.items() if _is_tools(c) and c.axis in axes]
     return sorted(found, key=lambda n: axes.index(str(channels[n].axis)))
@@ -66,15 +66,15 @@ def responses_of(campaign: Campaign) -> list[str]:
     return sorted((n for n, c in channels.items() if c.quantity == "displacement"), key=late)
 
 
-def _known(campaign: Campaign) -> dict[str, _Known]:
-    return {n: _Known(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()}
+def _known(campaign: Campaign) -> dict[str, _KnownChannel]:
+    return {n: _KnownChannel(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class _Sensors:
     """The channels that may drive effects, for a response on `axis`."""
 
-    drivers: Mapping[str, _Known]
+    drivers: Mapping[str, _KnownChannel]
     axis: str | None
 
     def fitting(self, name: str) -> list[dict[str, str]]:
@@ -96,7 +96,7 @@ class _Sensors:
         return None
 
 
-def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = None) -> str | None:
+def _text(campaign: str, channels: Mapping[str, _KnownChannel], chosen: str | None = None) -> str | None:
     """chosen: the response, the first of the tool's where None. None where there is none, or nothing drives it."""
     axes = _axes(channels)
     first = next((n for n, c in channels.items() if axes and _is_tools(c) and c.axis == axes[0]), None)
@@ -128,7 +128,7 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
     return sealed("\n".join([*text, ""]))
 
 
-def _measured_too(channels: Mapping[str, _Known], chosen: str, axes: Sequence[str]) -> list[str]:
+def _measured_too(channels: Mapping[str, _KnownChannel], chosen: str, axes: Sequence[str]) -> list[str]:
     """The tool's other displacements as a response names them: by the axis alone, where one probe is along it."""
     found = []
     for axis in axes:
@@ -165,17 +165,17 @@ def _line(effect: str, drivers: Mapping[str, str]) -> str:
     return f"  - {{{flow({'effect': effect, 'drivers': dict(drivers)})}}}"
 
 
-def _axes(channels: Mapping[str, _Known]) -> list[str]:
+def _axes(channels: Mapping[str, _KnownChannel]) -> list[str]:
     """The axes of the tool's displacements, the one that is modelled first before the others: Z before Y before X."""
     there = {c.axis for c in channels.values() if _is_tools(c)}
     return [a for a in _AXES if a in there]
 
 
-def _is_tools(channel: _Known) -> bool:
+def _is_tools(channel: _KnownChannel) -> bool:
     return channel.quantity == "displacement" and channel.at == "tcp" and channel.axis is not None
 
 
-def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: str) -> list[dict[str, str]]:
+def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _KnownChannel], axis: str) -> list[dict[str, str]]:
     """The bindings, without those whose sensor sits on another axis than the modelled one."""
 
     def own(name: str) -> bool:
@@ -185,7 +185,9 @@ def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: s
     return [b for b in found if all(own(c) for c in b.values())]
 
 
-def _nearest_first(effect: str, found: list[dict[str, str]], drivers: Mapping[str, _Known]) -> list[dict[str, str]]:
+def _nearest_first(
+    effect: str, found: list[dict[str, str]], drivers: Mapping[str, _KnownChannel]
+) -> list[dict[str, str]]:
     """The bindings in their order, but a sensor at the part that the effect is called after before others: of
     table_bearing table.bearing before table.motor; and the air of the hall before that at its top or bottom, which is
     warmer or colder for most of the day."""

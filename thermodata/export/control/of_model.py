@@ -23,7 +23,7 @@ BEYOND = 1.5  # of the largest value, for what is zero at rest; of the range, fo
 
 
 @dataclass(frozen=True)
-class Asked:
+class ProgramRequest:
     """What a user asks of a program, and what its head says of the model. None: as the tests say. without: ids of
     effects that are left out. fitted_to: the version of the data that the model was fitted to (default: the data's).
     stale: what changed in them since."""
@@ -40,7 +40,7 @@ class Asked:
     stale: str | None = None
 
 
-def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> Program:
+def program_of(model: str, fitted: FittedModel, data: Dataset, asked: ProgramRequest) -> Program:
     """The program of one response. model: its id. UsageError names what can't run in a control, why, and what to do."""
     response = find_response(fitted, asked.response)
     terms = laws(response, data.channels, data.step_s, asked.groups)
@@ -132,7 +132,7 @@ def _bands(terms: Sequence[TermLaw], data: Dataset) -> dict[str, float]:
     return found
 
 
-def _limits(response: FittedResponse, terms: Sequence[TermLaw], data: Dataset, asked: Asked) -> Limits:
+def _limits(response: FittedResponse, terms: Sequence[TermLaw], data: Dataset, asked: ProgramRequest) -> Limits:
     """Half as much again as the model moved in its tests, and twice as fast; of several gains in the tests of those
     that the program has, where there are any."""
     ids, most, fastest = {t.id for t in terms}, 0.0, 0.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.effect import law
 from thermodata.export.control.program import Program
-from thermodata.export.control.statements import Assign, Body, Fill, If, Say, Statement, Whole
+from thermodata.export.control.statements import Assign, Body, Fill, If, Say, Statement, WholeNumber
 
 _RANK = {"+": 4, "-": 4, "*": 5, "/": 5, "**": 6}
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -79,11 +79,11 @@ class Printer:
         """A variable, or an element of a ring, as it is reached."""
         return _NAME.sub(lambda m: self.where(m[0]), text)
 
-    def text(self, node: law.Node | Whole, outer: int = -1) -> str:
+    def text(self, node: law.Node | WholeNumber, outer: int = -1) -> str:
         """An expression, with the parentheses that it needs and those that help."""
         w = self.words
         match node:
-            case Whole(value, truth):
+            case WholeNumber(value, truth):
                 return (w.true if value else w.false) if truth else str(value)
             case law.Number(value):
                 text = w.real(value)

@@ -118,7 +118,7 @@ def _temp(body: Body) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Whole:
+class WholeNumber:
     """A whole number or, as `truth`, a truth value: languages write them otherwise than reals."""
 
     value: int
@@ -132,12 +132,12 @@ def var(name: str) -> law.Symbol:
 
 def whole(value: int) -> law.Node:
     """A whole number."""
-    return Whole(value)  # type: ignore[return-value]
+    return WholeNumber(value)  # type: ignore[return-value]
 
 
 def truth(value: bool) -> law.Node:
     """TRUE or FALSE."""
-    return Whole(int(value), truth=True)  # type: ignore[return-value]
+    return WholeNumber(int(value), truth=True)  # type: ignore[return-value]
 
 
 def any_of(parts: tuple[law.Node, ...]) -> law.Node:

@@ -36,7 +36,7 @@ FEWEST = 2  # tests that say what is left
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class UnseenError:
     """What is left of a response on unseen tests. rms: in its unit, each test alike; reach: the largest prediction in
     the open ones; refitted: they were left out in turn, else they are verification tests; worth: independent values."""
 
@@ -63,7 +63,7 @@ class Ahead:
     """What a band is made of. left: response -> what is left of it; scale: response -> standard uncertainty of its
     calibration, as a share. machines: that the model was fitted to. why_not: why there is no band."""
 
-    left: Mapping[str, Left]
+    left: Mapping[str, UnseenError]
     scale: Mapping[str, float]
     machines: tuple[str, ...]
     why_not: str | None = None
@@ -91,7 +91,7 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
         return Ahead(
             {}, scale, machines, "the data changed since the model was fitted, and with them what its tests say of it"
         )
-    left: dict[str, Left] = {}
+    left: dict[str, UnseenError] = {}
     reach = {r.name: _reach(r, fitted.tests(data)) for r in fitted.responses}
     for response in fitted.responses:
         apart = [t for t in fitted.tests(data, "verification") if _took_no_part(fitted, response, t, machines)]
@@ -143,10 +143,10 @@ def _reach(response: FittedResponse, tests: Iterable[TestData]) -> float:
     return max(map(float, sizes), default=0.0)
 
 
-def _left(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> Left:
+def _left(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> UnseenError:
     found = [_unseen(response, test) for response, test in unseen]
     squares, worth = np.array([one.square for one in found]), np.array([one.worth for one in found])
-    return Left(
+    return UnseenError(
         unseen[0][0].unit,
         float(np.sqrt(np.mean(squares))),
         max(reach, *(one.reach for one in found)),

@@ -24,7 +24,7 @@ MEAN = "mean"
 
 
 @dataclass(frozen=True)
-class Beside:
+class ModelOnTest:
     """One model on one test, or the mean over the tests that all models predict (test "mean"). In the response's unit.
 
     initial, residual: max - min of the displacement and of what the model leaves; initial_peaks, residual_peaks:
@@ -59,10 +59,10 @@ _MEANS = ("fit", "initial", "initial_peaks", "residual", "residual_peaks", "low"
 
 def beside(
     models: Sequence[tuple[str, FittedModel, Dataset]], reference: str, tests: Sequence[str] = ()
-) -> list[Beside]:
+) -> list[ModelOnTest]:
     """Rows by test, response and model, then the means. models: (id, model, its data), the reference among them.
     tests: only these, as test or campaign/test. UsageError for one that no model knows, or that is closed to all."""
-    rows: list[Beside] = []
+    rows: list[ModelOnTest] = []
     wanted = _named(models, tests)
     for identity, fitted, data in models:
         for response in fitted.responses:
@@ -92,8 +92,8 @@ def _named(models: Sequence[tuple[str, FittedModel, Dataset]], tests: Sequence[s
     return find_tests(tests, replace(models[0][2], tests=tuple(every.values())), "--test") if tests else ()
 
 
-def _row(identity: str, fitted: FittedModel, response: FittedResponse, test: TestData) -> Beside:
-    row = Beside(test.campaign, test.test, role_of(fitted, test), response.name, identity, fitted.spec.name)
+def _row(identity: str, fitted: FittedModel, response: FittedResponse, test: TestData) -> ModelOnTest:
+    row = ModelOnTest(test.campaign, test.test, role_of(fitted, test), response.name, identity, fitted.spec.name)
     why = response.why_not(test)
     if why is not None:
         return replace(row, why=why)
@@ -118,7 +118,7 @@ def _row(identity: str, fitted: FittedModel, response: FittedResponse, test: Tes
     )
 
 
-def _means(rows: Sequence[Beside]) -> list[Beside]:
+def _means(rows: Sequence[ModelOnTest]) -> list[ModelOnTest]:
     """Over the tests that every model predicts: a mean over others would compare other things."""
     found = []
     for response in dict.fromkeys(r.response for r in rows):
@@ -138,11 +138,11 @@ def _means(rows: Sequence[Beside]) -> list[Beside]:
                 means[key] = float(np.mean(values)) if values else None
             fold = means["initial"] / means["residual"] if means["residual"] else None
             total = sum(r.n for r in mine)
-            found.append(Beside("", MEAN, "", response, model, name, **means, fold=fold, n=total))
+            found.append(ModelOnTest("", MEAN, "", response, model, name, **means, fold=fold, n=total))
     return found
 
 
-def _against(row: Beside, reference: Beside | None) -> Beside:
+def _against(row: ModelOnTest, reference: ModelOnTest | None) -> ModelOnTest:
     if reference is None or not reference.residual or row.residual is None or row.model == reference.model:
         return row
     return replace(row, against=(1.0 - row.residual / reference.residual) * 100.0)

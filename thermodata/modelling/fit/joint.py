@@ -22,7 +22,7 @@ FACTORS = (0.02, 50.0)  # of one group's gains to another's
 
 
 @dataclass(frozen=True, slots=True)
-class How:
+class FitSettings:
     """How a response is fitted. wanted: the phases whose samples count, None for all. uncertainty: whether intervals
     are asked for; profiled: and looked at by their profiles. near: the terms as they were found on nearly the same
     data, where the search starts without a look over the whole range. loose: see `search`."""
@@ -35,7 +35,11 @@ class How:
 
 
 def fit_jointly(
-    bound: BoundResponse, members: Sequence[int], held: Mapping[int, FittedTerm], tests: Sequence[TestData], how: How
+    bound: BoundResponse,
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    how: FitSettings,
 ) -> dict[int, FittedTerm]:
     """Fit some terms of a response together, with others held."""
     order = [*members, *held]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import identify_arx, placeholder
-from thermodata.modelling.fit.joint import How, fit_jointly
+from thermodata.modelling.fit.joint import FitSettings, fit_jointly
 from thermodata.modelling.fit.orders import Near, Tried, choose_orders, open_orders
 from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
@@ -131,7 +131,7 @@ def fit_response(
 ) -> FittedResponse:
     """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
     find their own tests (default: among `tests`)."""
-    how, tried = How(wanted, uncertainty), list[Tried]()
+    how, tried = FitSettings(wanted, uncertainty), list[Tried]()
     held: dict[int, FittedTerm] = {}
     stages = stages_of(bound, tests, data)
     for stage in stages:
@@ -167,7 +167,7 @@ def _identify(
     members: Sequence[int],
     held: Mapping[int, FittedTerm],
     tests: Sequence[TestData],
-    how: How,
+    how: FitSettings,
     tried: list[Tried],
 ) -> tuple[BoundResponse, dict[int, FittedTerm]]:
     """Some terms together, with others held; the response with the orders that were open."""
@@ -181,14 +181,14 @@ def _identify(
 def _with_given_orders(
     members: Sequence[int],
     held: Mapping[int, FittedTerm],
-    how: How,
+    how: FitSettings,
     bound: BoundResponse,
     tests: Sequence[TestData],
     near: Near,
     uncertainty: bool,
 ) -> FittedResponse:
     """The response of these terms alone, while orders are tried."""
-    trial = How(how.wanted, uncertainty, near, loose=not uncertainty, profiled=False)
+    trial = FitSettings(how.wanted, uncertainty, near, loose=not uncertainty, profiled=False)
     bound, found = _given_orders(bound, members, held, tests, trial)
     terms = {**held, **found}
     part = replace(bound, terms=tuple(t for i, t in enumerate(bound.terms) if i in terms))
@@ -196,7 +196,11 @@ def _with_given_orders(
 
 
 def _given_orders(
-    bound: BoundResponse, members: Sequence[int], held: Mapping[int, FittedTerm], tests: Sequence[TestData], how: How
+    bound: BoundResponse,
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    how: FitSettings,
 ) -> tuple[BoundResponse, dict[int, FittedTerm]]:
     bound, arx = _with_placeholders(bound, members)
     if not arx:

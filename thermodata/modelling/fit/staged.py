@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.modelling.fit.joint import How, fit_jointly
+from thermodata.modelling.fit.joint import FitSettings, fit_jointly
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
@@ -56,7 +56,7 @@ def refined(
     fitted: Mapping[int, FittedTerm],
     tests: Sequence[TestData],
     stages: Sequence[Stage],
-    how: How,
+    how: FitSettings,
 ) -> dict[int, FittedTerm]:
     """All terms together, from where each was found. Held stay effects seen on another response, effects whose own
     tests lack a driver of another term, and all where the model counts some phases only (an idle test has none)."""

@@ -17,7 +17,7 @@ from thermodata.plugin import Float1D
 
 
 @dataclass(frozen=True)
-class Alike:
+class SwappableLags:
     """Lags that could change places. places: among the searched parameters; columns: of the last one's gain, one a slot
     (none where no gain belongs to a lag)."""
 
@@ -34,7 +34,7 @@ def fastest_first(problem: Problem, x: Float1D) -> Float1D:
     return out
 
 
-def alike(problem: Problem) -> list[Alike]:
+def alike(problem: Problem) -> list[SwappableLags]:
     """All lags of a problem that could change places, by function."""
     by_function = dict[tuple[int, tuple[int, ...]], list[int]]()
     for i, free in enumerate(problem.free):
@@ -49,7 +49,7 @@ def alike(problem: Problem) -> list[Alike]:
             gains = [g.name for g in term.effect.gains]
             last = gain_of[problem.free[places[-1]].param.name]
             columns = tuple(int(problem.starts[s]) + gains.index(last) for s in slots) if last else ()
-            found.append(Alike(tuple(places), columns))
+            found.append(SwappableLags(tuple(places), columns))
     return found
 
 

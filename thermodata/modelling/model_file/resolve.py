@@ -76,12 +76,12 @@ def bind_terms(
 ) -> tuple[BoundTerm, ...]:
     """The effects that act on a response. response: campaign -> its channel."""
     named = enumerate(zip(term_ids(effects), effects, strict=True))
-    there = _There(data, by_campaign, response, base, fit_inside)
+    there = _BoundTo(data, by_campaign, response, base, fit_inside)
     return tuple(there.term(name, given, f"effects[{i}]") for i, (name, given) in named if there.acts(given))
 
 
 @dataclass(frozen=True, slots=True)
-class _There:
+class _BoundTo:
     """What the effects of a model are bound to. channels: campaign -> name -> what it is. response: campaign -> its
     channel. base, fit_inside: as in `resolve`."""
 

@@ -59,7 +59,7 @@ class SeenPath:
 
 
 @dataclass(frozen=True)
-class Seen:
+class SeenResponse:
     """One response. not_shown: (effect, why). correlation: r_0 ... at lags of step_s [s], over `count` residuals of the
     calibration tests, which are `tests`; states: the residual against each state."""
 
@@ -76,12 +76,12 @@ class Seen:
     at_bounds: tuple[Check, ...] = ()  # what a bound holds, and whose it is
 
 
-def see(fitted: FittedModel, data: Dataset) -> list[Seen]:
+def see(fitted: FittedModel, data: Dataset) -> list[SeenResponse]:
     """Each response of the model on its calibration tests, at the step of the model."""
     return [_see(response, data) for response in fitted.responses]
 
 
-def _see(response: FittedResponse, data: Dataset) -> Seen:
+def _see(response: FittedResponse, data: Dataset) -> SeenResponse:
     systems, hidden, shown = list[tuple[TermLaw, Path, System]](), list[tuple[str, str]](), list[tuple[TermLaw, Path]]()
     for term in response.terms:
         groups = list(term.groups)
@@ -103,7 +103,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
     count = int(sum(np.isfinite(r).sum() for r in residuals))
     most = min(LONGEST, lags_told(residuals, data.step_s, max(data.step_s, LONGEST_S)))
     correlation = autocorrelation(residuals, most)
-    return Seen(
+    return SeenResponse(
         response.name,
         response.unit,
         data.step_s,

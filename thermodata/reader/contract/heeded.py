@@ -14,7 +14,7 @@ from thermodata.reader.signals.series import NEVER
 _NO_SUCH = "thermodata: a name that no file has"  # longer than a workbook's sheet can be
 
 
-class _Said(NamedTuple):
+class _RefusedKey(NamedTuple):
     """A key that is refused where it is not looked at. other: what no file answers alike."""
 
     key: str
@@ -25,14 +25,14 @@ class _Said(NamedTuple):
 
 
 _WATCHED = (
-    _Said(
+    _RefusedKey(
         "sheet",
         _NO_SUCH,
         "knows no sheets in such a file",
         "a source without table: {sheet: ...}, whose files are one test each",
         "take 'sheet' out of this source's table; a file that holds several tests is cut by 'window' in each",
     ),
-    _Said(
+    _RefusedKey(
         "series",
         [_NO_SUCH],
         "parts no rows by what they are of in such a file",
@@ -133,7 +133,7 @@ class Watched:
                 hint=wanted.hint,
             )
 
-    def _describes_any(self, reader: Reader, path: Path, said: Recording, wanted: _Said) -> bool:
+    def _describes_any(self, reader: Reader, path: Path, said: Recording, wanted: _RefusedKey) -> bool:
         """Whether a reader describes a file in the same way, whatever is declared."""
         other = {**(self._said.table or {}), wanted.key: wanted.other}
         try:

@@ -13,7 +13,7 @@ from thermodata.archive.regular import refuse_what_never_ends
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
 from thermodata.reader.contract.guard import asking, described, guarded, held_for
 from thermodata.reader.finding.registry import claims, sniff
-from thermodata.reader.finding.seen import Seen, when
+from thermodata.reader.finding.seen import SeenRows, when
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
@@ -67,7 +67,7 @@ def preview(
     begun = begun or begin(reader if reader is not None else sniff(path), path, source)
     chosen, said, whole = begun.reader, begun.recording, begun.whole
     absolute = said.clock == "absolute"
-    seen = Seen(said, until.first_rows)
+    seen = SeenRows(said, until.first_rows)
     began = time.monotonic()
     hurried = size_of(path) > _SMALL
     for item in guarded(chosen, path, source, said):

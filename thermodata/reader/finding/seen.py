@@ -17,7 +17,7 @@ from thermodata.reader.times.newest_first import NOTE, Steps
 _GAP_FACTOR = 3.0  # an interval of more than so many usual ones is a gap
 
 
-class Seen:
+class SeenRows:
     """Of the part of a file that was read. rows: of all streams."""
 
     def __init__(self, said: Recording, first_rows: int) -> None:

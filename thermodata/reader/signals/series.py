@@ -184,7 +184,7 @@ PLAINLY = Called()
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundSeries:
     """series: how rows are taken apart, None where all are of one, or it is not plain. notes: what was done or not."""
 
     series: Series | None = None
@@ -199,13 +199,13 @@ def find_series(
     pieces: Int1D | None = None,
     called: Called = PLAINLY,
     kept: Collection[str] = (),
-) -> Found:
+) -> FoundSeries:
     """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; kept: signals
     that each series has, though they are not in the block."""
     parting = declared.parting(block, absolute, pieces)
     doubts = tuple(declared.doubts(parting))
     if not parting.tags:
-        return Found(None, doubts)
+        return FoundSeries(None, doubts)
     tags = parting.tags
     names = np.array(_names(block, tags), object)
     held: dict[str, frozenset[str]] = {}
@@ -220,12 +220,12 @@ def find_series(
             stream += "#2"
         held[one], streams[one] = some | frozenset(kept), stream
     if len(held) < (2 if declared.columns is None else 1):
-        return Found(None, doubts)
+        return FoundSeries(None, doubts)
     named = called.named
     made = Series(block.stream, tags, held, streams, named, _units(block, names, held, tags))
     own = made.note() if declared.columns else f"{made.note()}; {declared.declined()}"
     units = (replace(u, column=named(one, u.column), of=named(one, u.of)).note() for one, u in made.units.items())
-    return Found(made, (own, *filter(None, units), *doubts))
+    return FoundSeries(made, (own, *filter(None, units), *doubts))
 
 
 def _units(

@@ -9,13 +9,13 @@ import numpy as np
 
 from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
 from thermodata.chart.colour import DASHES
-from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.as_system import SeenResponse
 from thermodata.modelling.seen.residual_tests import Against
 from thermodata.report.words.numbers import time_unit
 from thermodata.schema.agreed.certainty import Z95
 
 
-def system_charts(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, Chart]:
+def system_charts(seen: SeenResponse, styles: Mapping[str, tuple[str, str]]) -> dict[str, Chart]:
     """'step', 'bode', 'memory', and 'state0', ... . styles: effect -> (colour, dash)."""
     made: dict[str, Chart] = {}
     styles = path_styles(seen, styles)
@@ -26,7 +26,7 @@ def system_charts(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str
     return made | {f"state{i}": _against(state, seen.unit) for i, state in enumerate(seen.states)}
 
 
-def path_styles(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, tuple[str, str]]:
+def path_styles(seen: SeenResponse, styles: Mapping[str, tuple[str, str]]) -> dict[str, tuple[str, str]]:
     """Path -> (colour, dash): the colour of its effect, and of several gains of one effect a dash each."""
     taken, found = set(styles.values()), dict[str, tuple[str, str]]()
     for p in seen.paths:
@@ -38,7 +38,7 @@ def path_styles(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, 
     return found
 
 
-def _step(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
+def _step(seen: SeenResponse, styles: Mapping[str, tuple[str, str]]) -> Chart:
     longest = max(p.step[0][-1] for p in seen.paths)
     size, unit = time_unit(longest)
     series = [
@@ -56,7 +56,7 @@ def _step(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
     return Chart(f"Step responses of {seen.response}", Axis("time", unit), np.array([0.0, longest / size]), [panel])
 
 
-def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
+def _bode(seen: SeenResponse, styles: Mapping[str, tuple[str, str]]) -> Chart:
     def curves(of: int) -> list[Series]:
         return [
             Series(
@@ -80,7 +80,7 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
     )
 
 
-def _memory(seen: Seen) -> Chart:
+def _memory(seen: SeenResponse) -> Chart:
     lags_s = np.arange(len(seen.correlation), dtype=np.float64) * np.float64(seen.step_s)
     size, unit = time_unit(float(lags_s[-1]) if len(lags_s) else 0.0)
     band = Z95 / math.sqrt(max(seen.count, 1))

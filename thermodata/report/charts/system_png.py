@@ -13,7 +13,7 @@ import numpy as np
 
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
-from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.as_system import SeenResponse
 from thermodata.report.words.numbers import correlation_text, probability_text, time_unit
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.store.base.files import whole_file
@@ -29,7 +29,7 @@ TITLE_WIDE, LABEL_WIDE = 58, 50  # [letters] that have room over half of the pic
 ANONYMOUS = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
-def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
+def draw(seen: Sequence[SeenResponse], out: Path, title: str) -> None:
     """Write the picture; a cut write leaves no half file. UsageError where matplotlib is not installed."""
     try:
         import matplotlib
@@ -69,7 +69,7 @@ def _look(colour: str, dash: str) -> dict[str, Any]:
     return {"color": light()[colour], "linestyle": (0, DASHES[dash]) if DASHES[dash] else "solid"}
 
 
-def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
+def _step(axes: Any, seen: SeenResponse, looks: dict[str, dict[str, Any]]) -> None:
     longest = max((p.step[0][-1] for p in seen.paths), default=3600.0)
     size, unit = time_unit(longest)
     for p in seen.paths:
@@ -88,7 +88,7 @@ def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
         axes.legend(fontsize="small", loc="center right")
 
 
-def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) -> None:
+def _bode(axes: Any, seen: SeenResponse, looks: dict[str, dict[str, Any]], phase: bool) -> None:
     for p in seen.paths:
         hertz, size, angle = p.bode
         told = hertz * seen.step_s <= 1.0 / SHORTEST_STEPS
@@ -127,7 +127,7 @@ def folded(text: str, wide: int) -> str:
     return "\n".join([*lines, line.rstrip()])
 
 
-def _correlation(axes: Any, seen: Seen) -> None:
+def _correlation(axes: Any, seen: SeenResponse) -> None:
     lags_s = np.arange(len(seen.correlation)) * seen.step_s
     size, unit = time_unit(float(lags_s[-1]) if len(lags_s) else 0.0)
     axes.fill_between(lags_s / size, 0.0, seen.correlation, step="mid", color="#7b8794", alpha=0.5)

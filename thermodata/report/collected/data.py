@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.as_system import SeenResponse
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.answers.result import Check, Parameter, Score
@@ -138,7 +138,7 @@ class ReportData:
     weak: dict[str, list[WeakSpot]] = field(default_factory=dict)
     first: tuple[TestPart, ...] = ()
     older: tuple[str, ...] = ()
-    systems: tuple[Seen, ...] = ()
+    systems: tuple[SeenResponse, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     reason_of_fit: bool = True

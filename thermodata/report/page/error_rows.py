@@ -109,14 +109,14 @@ def _left_out_row(data: ReportData) -> ErrorRow | None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Of:
+class _ResponseUnit:
     response: str
     unit: str
 
 
-def _of_response(data: ReportData, found: Diagnosis | None) -> _Of:
+def _of_response(data: ReportData, found: Diagnosis | None) -> _ResponseUnit:
     """What a diagnosis tells is of one response, where the other errors are of several."""
-    return _Of(found.response if found and len(data.responses) > 1 else "", data.unit_of(found))
+    return _ResponseUnit(found.response if found and len(data.responses) > 1 else "", data.unit_of(found))
 
 
 def _of_role(data: ReportData, role: str) -> tuple[float | None, float | None]:

@@ -25,7 +25,15 @@ from thermodata.store.ingest.commit import Difference, Planned, VanishedError, c
 from thermodata.store.ingest.known.files_taken_out import files_taken_out
 from thermodata.store.ingest.known.inventory import Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
-from thermodata.store.ingest.known.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
+from thermodata.store.ingest.known.unchanged import (
+    FirstGlance,
+    differing,
+    keep,
+    known_files,
+    noted,
+    of_tests,
+    summary_of,
+)
 from thermodata.store.ingest.layers import Layers, make_layers
 from thermodata.store.ingest.other_reader import read_by_another, refuse_older_reader
 from thermodata.store.ingest.progress import Progress, TextProgress
@@ -194,7 +202,7 @@ class _Earlier:
     where nothing differs since. differs: files that may be other ones; lines: test -> its line of the note; both where
     nothing but files differs."""
 
-    here: Seen
+    here: FirstGlance
     kept: Mapping[str, Any]
     answer: IngestSummary | None
     differs: Collection[str] = ()

@@ -92,7 +92,7 @@ def write_member(series: TestSeries, member: Member, columns: Columns, key: str,
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)
     sampler = Sampler(here, rows.start, rows.stop)
     parts = [
-        _Part(series, name, columns, key, a, b)
+        _TidyFile(series, name, columns, key, a, b)
         for name, a, b in (("history", rows.history, rows.start), ("test", rows.start, rows.stop))
         if a < b
     ]
@@ -201,7 +201,7 @@ def _passed(
     return events
 
 
-class _Part:
+class _TidyFile:
     """One tidy file in the making: rows start to stop of the timeline."""
 
     def __init__(self, series: TestSeries, name: str, columns: Columns, key: str, start: int, stop: int) -> None:

@@ -37,7 +37,7 @@ class Peak:
 
 
 @dataclass(frozen=True, slots=True)
-class Apart:
+class ContributionsApart:
     """One model's contribution less that of the pinned one, an effect that a model lacks counting as zero. curve,
     reach: shape (n,), reach is half of at least 95 % (None where a deviation is not known). peak: the largest
     difference. apart_s: for how long the two bands are apart [s], None where one is not known."""
@@ -57,7 +57,7 @@ class Effect:
     curves: tuple[Float1D | None, ...]
     deviations: tuple[Float1D | None, ...]
     peaks: tuple[Peak | None, ...]
-    apart: tuple[Apart, ...]
+    apart: tuple[ContributionsApart, ...]
     differs: bool
 
 
@@ -171,12 +171,14 @@ def _effect(
     return Effect(name, curves, deviations, peaks, apart, differs)
 
 
-def _apart(t_s: Float1D, curve: Float1D, reach: Float1D | None, least: float) -> Apart:
+def _apart(t_s: Float1D, curve: Float1D, reach: Float1D | None, least: float) -> ContributionsApart:
     peak = _peak(t_s, curve, reach)
     if reach is None:
-        return Apart(curve, None, peak, None)
+        return ContributionsApart(curve, None, peak, None)
     step = float(np.median(np.diff(t_s))) if len(t_s) > 1 else 0.0
-    return Apart(curve, reach, peak, step * int(np.count_nonzero(np.abs(curve) > np.maximum(reach, least))))
+    return ContributionsApart(
+        curve, reach, peak, step * int(np.count_nonzero(np.abs(curve) > np.maximum(reach, least)))
+    )
 
 
 def _peak(t_s: Float1D, y: Float1D, reach: Float1D | None) -> Peak:

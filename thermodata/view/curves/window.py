@@ -112,7 +112,7 @@ def read_window(
             if files:
                 paths = [f["path"] for f in files]
                 with _damage_named([store.path / p for p in paths]):
-                    found.append(_window(con, store.path, paths, names, _Asked(span, flagged, most)))
+                    found.append(_window(con, store.path, paths, names, _AskedStretch(span, flagged, most)))
     return found
 
 
@@ -149,7 +149,7 @@ def _facts(con: duckdb.DuckDBPyConnection, table: str, files: Sequence[Path]) ->
 
 
 @dataclass(frozen=True, slots=True)
-class _Asked:
+class _AskedStretch:
     """What a screen asks of a stretch. span: (from, to) [s], all where None; most: samples that it draws."""
 
     span: tuple[float, float] | None
@@ -207,7 +207,7 @@ class _Stretch:
 
 
 def _window(
-    con: duckdb.DuckDBPyConnection, folder: Path, paths: Sequence[str], names: Sequence[str], asked: _Asked
+    con: duckdb.DuckDBPyConnection, folder: Path, paths: Sequence[str], names: Sequence[str], asked: _AskedStretch
 ) -> Window:
     table = f"read_parquet({file_list(paths)}, hive_partitioning = false)"
     there, (low, high, count) = _facts(con, table, [folder / p for p in paths])

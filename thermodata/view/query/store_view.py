@@ -13,7 +13,7 @@ from thermodata.store.base.connection import damaged_data, literal
 from thermodata.view.query.reserved import reserved_hint
 from thermodata.view.query.rows import Rows
 from thermodata.view.query.statements import check_statement
-from thermodata.view.query.units import Known, column_units, known_units
+from thermodata.view.query.units import KnownUnits, column_units, known_units
 from thermodata.view.query.unknown_column import unknown_column_hint
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class StoreView:
 
     def __init__(self, store: Store | str | Path = "thermodata.store") -> None:
         self.store = store if isinstance(store, Store) else Store(Path(store))
-        self._known: tuple[duckdb.DuckDBPyConnection, Known] | None = None
+        self._known: tuple[duckdb.DuckDBPyConnection, KnownUnits] | None = None
 
     def __repr__(self) -> str:
         return f"StoreView({str(self.store.path)!r})"
@@ -95,7 +95,7 @@ class StoreView:
             warnings.warn(flagged, FlaggedValuesWarning, stacklevel=2)
         return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation), con.interrupt)
 
-    def _known_units(self, con: duckdb.DuckDBPyConnection) -> Known:
+    def _known_units(self, con: duckdb.DuckDBPyConnection) -> KnownUnits:
         if self._known is None or self._known[0] is not con:  # a commit gives another copy
             self._known = (con, known_units(con))
         return self._known[1]

@@ -27,7 +27,7 @@ _NAMES = ("channel", "response")  # columns that say which channel a row is of
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownUnits:
     """What a copy of the catalogue says. channels: channel -> its unit, None where it has several. comments: table ->
     column -> comment. columns: table -> its columns. responses: of the models."""
 
@@ -42,7 +42,7 @@ class Known:
         return None if unit is None else difference_unit(unit)
 
 
-def known_units(con: duckdb.DuckDBPyConnection) -> Known:
+def known_units(con: duckdb.DuckDBPyConnection) -> KnownUnits:
     """Asked once a copy: it takes as long as a small query."""
     channels = con.execute(
         "select channel, case when count(distinct unit) = 1 then any_value(unit) end from channel "
@@ -57,7 +57,7 @@ def known_units(con: duckdb.DuckDBPyConnection) -> Known:
         if comment is not None:
             comments.setdefault(str(table), {})[str(column)] = str(comment)
     responses = con.execute("select distinct unnest(string_split(response, ', ')) from model").fetchall()
-    return Known(
+    return KnownUnits(
         {str(channel): unit for channel, unit in channels},
         comments,
         {table: frozenset(names) for table, names in columns.items()},
@@ -66,7 +66,7 @@ def known_units(con: duckdb.DuckDBPyConnection) -> Known:
 
 
 def column_units(
-    con: duckdb.DuckDBPyConnection, known: Known, query: str, relation: duckdb.DuckDBPyRelation
+    con: duckdb.DuckDBPyConnection, known: KnownUnits, query: str, relation: duckdb.DuckDBPyRelation
 ) -> dict[str, str]:
     """column of the relation -> unit. con: of the connection that made it."""
     sources = _sources(con, query)
@@ -122,10 +122,10 @@ def _sources(con: duckdb.DuckDBPyConnection, query: str) -> tuple[dict[str, str]
     if not whole:
         return columns, tables
     # '*' gives all as they are, but for what stands beside it under a name of its own
-    return (None if not columns else _All(columns)), tables
+    return (None if not columns else _Star(columns)), tables
 
 
-class _All(dict[str, str]):
+class _Star(dict[str, str]):
     """The columns beside a '*', which gives all others as they are."""
 
     def get(self, name: str, default: Any = None) -> Any:
@@ -146,7 +146,7 @@ def _tables(node: Mapping[str, Any]) -> Iterable[str]:
         yield ""
 
 
-def _comments(known: Known, tables: list[str]) -> dict[str, str]:
+def _comments(known: KnownUnits, tables: list[str]) -> dict[str, str]:
     """column -> comment, of the columns that one of the tables alone has."""
     # what the macro of one channel gives has the columns of the view over all
     found = [known.comments.get("sample" if t == "signal" else t, {}) for t in tables]
@@ -154,7 +154,7 @@ def _comments(known: Known, tables: list[str]) -> dict[str, str]:
     return {"t_s": "[s]", **{n: text for each in found for n, text in each.items() if once[n] == 1}}
 
 
-def _is_channel(known: Known, tables: Iterable[str], column: str) -> bool:
+def _is_channel(known: KnownUnits, tables: Iterable[str], column: str) -> bool:
     """Whether a column is of a table that has channels for columns, and of no other one."""
     wide = [t for t in tables if t.startswith(_WIDE)]
     others = (known.columns.get(t, frozenset[str]()) for t in tables if t not in wide)

@@ -16,7 +16,7 @@ from thermodata.virtual.truth.strata import SEALED
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class BenchmarkRequest:
     """machine: one of `MACHINES`. used: seeds of one set, as `seeds_of` gives them. strata: of the machine, every one
     where none is named. jobs, rivals, out: as in `run`. picture: where the reliability is drawn.
 

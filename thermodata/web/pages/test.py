@@ -136,7 +136,7 @@ def _named(given: Mapping[str, str]) -> tuple[str, str]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Known:
+class _UntilCommit:
     """What a commit may change, and a zoom does not. models: those of the test's campaign."""
 
     channels: list[Channel]
@@ -144,21 +144,21 @@ class _Known:
     about: About
 
 
-def _known(store: Store, campaign: str, test: str) -> _Known:
+def _known(store: Store, campaign: str, test: str) -> _UntilCommit:
     mark = store.mark()
     return _known_at(store, campaign, test, mark) if mark else _known_at.__wrapped__(store, campaign, test, mark)
 
 
 @lru_cache(maxsize=16)
-def _known_at(store: Store, campaign: str, test: str, mark: str) -> _Known:
+def _known_at(store: Store, campaign: str, test: str, mark: str) -> _UntilCommit:
     """mark: of the commit; read before what it stands for, so that nothing newer is taken for older."""
     channels = channels_of(store, campaign, test)
     models = [m for m in model_rows(store) if campaign in m.campaigns]
-    return _Known(channels, models, about_test(store, campaign, test))
+    return _UntilCommit(channels, models, about_test(store, campaign, test))
 
 
 def _channels(
-    store: Store, found: _Known, model: ModelRow | None, given: Mapping[str, str]
+    store: Store, found: _UntilCommit, model: ModelRow | None, given: Mapping[str, str]
 ) -> tuple[list[Channel], list[Channel]]:
     """(all, those to draw). Unasked, as many as can be told apart, those that the model reads and explains first."""
     known = found.channels

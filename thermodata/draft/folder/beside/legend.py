@@ -36,7 +36,7 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class LegendEntry:
     """Of a signal. name: as it stands there; text: what it is; unit, axis, at: None where nothing is said. own:
     key of the table `channel` -> what a workbook of our own says. others: what more lines say of it that is something
     else."""
@@ -60,7 +60,7 @@ class Legend:
     """file: its path; says: the last word of a signal's name, in lower case -> what it says of it."""
 
     file: str
-    says: Mapping[str, Said]
+    says: Mapping[str, LegendEntry]
 
     def note(self) -> str:
         said = [f"{s.name} is '{s.described}'" + (f" in {s.unit}" if s.unit else "") for s in self.says.values()]
@@ -135,16 +135,16 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
     return None
 
 
-def _of_our_own(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, Said]:
+def _of_our_own(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, LegendEntry]:
     """What a workbook of our own says, each cell under its head: the units are those of its columns, not of the log
     that these came from."""
-    found: dict[str, Said] = {}
+    found: dict[str, LegendEntry] = {}
     for row in rows:
         told = {head: cell for head, cell in zip(heads, row, strict=False) if cell}
         name, unit = told["channel"], told.get("unit")
         text = split_unit(told.get("signal", name))[0]
         own = {key: told[key] for key in _OWN if key in told}
-        found[name.casefold()] = Said(name, text, None if unit == "1" else unit, told.get("axis"), own=own)
+        found[name.casefold()] = LegendEntry(name, text, None if unit == "1" else unit, told.get("axis"), own=own)
     return found
 
 
@@ -160,14 +160,16 @@ def _column(
     return {}
 
 
-def _parted(name: str, text: str) -> Said:
+def _parted(name: str, text: str) -> LegendEntry:
     """'displacement TCP [um], X' in its parts."""
     bare, unit = split_unit(text)
     axis = _AXIS.match(bare) if unit is not None else None
     if unit is None and (found := _AXIS.match(text)) and (inner := split_unit(found["text"].rstrip(", ")))[1]:
         bare, unit, axis = inner[0], inner[1], found
     letter = axis["axis"].upper() if axis is not None else None
-    return Said(name, (axis["text"] if axis is not None and bare == axis.string else bare).strip(" ,;"), unit, letter)
+    return LegendEntry(
+        name, (axis["text"] if axis is not None and bare == axis.string else bare).strip(" ,;"), unit, letter
+    )
 
 
 def _names_axis(text: str, axis: str) -> bool:

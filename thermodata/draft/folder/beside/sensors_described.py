@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.draft.folder.beside.legend import Legend, Said, described_by, word_of
+from thermodata.draft.folder.beside.legend import Legend, LegendEntry, described_by, word_of
 from thermodata.draft.folder.beside.table import grids_of, there
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.words.listed import says
@@ -61,9 +61,9 @@ def _bare(name: str) -> str:
     return split_unit(name)[0].casefold()
 
 
-def _said_in(path: Path, names: set[str]) -> dict[str, Said]:
+def _said_in(path: Path, names: set[str]) -> dict[str, LegendEntry]:
     """The last word of a signal's name -> what a file says of it; nothing of what two entries of that word say."""
-    found: dict[str, Said] = {}
+    found: dict[str, LegendEntry] = {}
     twice: set[str] = set()
     for name, entry in _entries(_document(path), 0):
         word = word_of(name)
@@ -118,11 +118,11 @@ def _entries(data: Any, depth: int) -> Iterator[tuple[str, Any]]:
                 yield named, {k: v for k, v in one.items() if str(v) != named}
 
 
-def _said(name: str, entry: Any) -> Said | None:
+def _said(name: str, entry: Any) -> LegendEntry | None:
     """What an entry says of a signal: a text, or keys and their values; None where it says nothing."""
     if isinstance(entry, str):
         text, unit = split_unit(entry[:_LONGEST])
-        return Said(name, text, unit) if any(map(str.isalpha, text)) else None
+        return LegendEntry(name, text, unit) if any(map(str.isalpha, text)) else None
     if not isinstance(entry, Mapping):
         return None
     told = {str(k): v.strip()[:_LONGEST] for k, v in entry.items() if isinstance(v, str) and v.strip()}
@@ -133,7 +133,7 @@ def _said(name: str, entry: Any) -> Said | None:
     texts = [v for k, v in told.items() if _is(f"{_TEXT} {_NAME}", k) and not _is(_UNIT, k)]
     if not (texts or unit or axis):
         return None
-    return Said(name, ", ".join(dict.fromkeys(texts)) or split_unit(name)[0], unit, axis)
+    return LegendEntry(name, ", ".join(dict.fromkeys(texts)) or split_unit(name)[0], unit, axis)
 
 
 def _is(listed: str, key: object) -> bool:

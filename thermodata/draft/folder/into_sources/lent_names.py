@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.archive.unpacked import unpacked
-from thermodata.draft.files.raw_file import Asked, RawFile, described_files, sample_of_file
+from thermodata.draft.files.raw_file import FileQuestion, RawFile, described_files, sample_of_file
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
 from thermodata.reader.files.rotated import unrotated
@@ -34,7 +34,7 @@ def with_lent_names(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ...
             continue
         of, words = named[kind][0], list(names)
         bare = f"{counted(len(files), 'file')} without a header, e.g. {files[0].path}"
-        asked = Asked(f"names? {bare}: those of {of.path} are taken", {"names": words})
+        asked = FileQuestion(f"names? {bare}: those of {of.path} are taken", {"names": words})
         by_path: dict[str, RawFile] = {}
         for file in files:
             like = by_path.get(file.like or "")
@@ -67,7 +67,7 @@ def _names_of(folder: Path, files: Sequence[RawFile]) -> tuple[str, ...] | None:
         return None  # no text, or one that another reader takes apart
 
 
-def _described(folder: Path, file: RawFile, of: RawFile, asked: Asked) -> RawFile | None:
+def _described(folder: Path, file: RawFile, of: RawFile, asked: FileQuestion) -> RawFile | None:
     """The file by the names of another; None where it is not of that kind."""
     path = folder / file.path
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from thermodata.draft.files.raw_file import Asked, RawFile
+from thermodata.draft.files.raw_file import FileQuestion, RawFile
 from thermodata.draft.files.sheets import recordings_in
 from thermodata.draft.folder.into_sources.one_or_many import told_apart
 from thermodata.schema.words.sentences import with_dots
@@ -28,7 +28,7 @@ def of_one_time(whole: RawFile, found: Sequence[RawFile]) -> RawFile | None:
     asked = (
         f"it holds {recordings} recordings of several loggers or rates: a test each? then write each with its window"
     )
-    return replace(whole, asked=(*whole.asked, Asked(asked, {})))
+    return replace(whole, asked=(*whole.asked, FileQuestion(asked, {})))
 
 
 def in_every_file(apart: Mapping[str, tuple[RawFile, Sequence[RawFile]]]) -> dict[str, RawFile]:
@@ -47,4 +47,4 @@ def in_every_file(apart: Mapping[str, tuple[RawFile, Sequence[RawFile]]]) -> dic
 def _asked(whole: RawFile, found: Sequence[RawFile], why: str) -> RawFile:
     named = with_dots([f"'{f.sheet}'" for f in found], _NAMED)
     asked = f"{named} {why}: loggers or rates of one test, or a test each? then table: {{sheet: '{{test}}'}}"
-    return replace(whole, asked=(*whole.asked, Asked(asked, {})))
+    return replace(whole, asked=(*whole.asked, FileQuestion(asked, {})))

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.draft.files.raw_file import Asked, RawFile, merged
+from thermodata.draft.files.raw_file import FileQuestion, RawFile, merged
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.files.rotated import unrotated
@@ -57,7 +57,7 @@ class Group:
             first.setdefault(repr(asked.declare) if asked.declare else asked.ask, asked.ask)
         return tuple(first.values())
 
-    def _asked(self) -> list[Asked]:
+    def _asked(self) -> list[FileQuestion]:
         return [a for f in (*self.files, *self.calibrations) for a in f.asked]
 
     @property

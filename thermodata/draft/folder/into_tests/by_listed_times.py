@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from thermodata.draft.files.raw_file import Part, RawFile
+from thermodata.draft.files.raw_file import RawFile, RowsOfTest
 from thermodata.draft.folder.beside.listed_times import ListedTime, shown
 from thermodata.draft.folder.into_tests.over_tests import within
 from thermodata.draft.words.filenames import normal
@@ -77,7 +77,9 @@ def _part(file: RawFile, test: str, at: ListedTime) -> RawFile:
     first = file.start_ns or 0
     begin, end = max(at.begin_ns, first), at.end_ns or 0
     window = ((begin - first) / 1e9, (end - first) / 1e9)
-    return replace(within(file, begin, end), block=Part(test, window, f"{at.file} says {shown(begin)} to {shown(end)}"))
+    return replace(
+        within(file, begin, end), block=RowsOfTest(test, window, f"{at.file} says {shown(begin)} to {shown(end)}")
+    )
 
 
 __all__ = ["parted_by_lists"]

@@ -24,8 +24,8 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     'day.zip/a.csv' -> 'day/a.csv', 'a.csv.xz' -> 'a.csv.gz' beside it. Of two archives only where all that is in one
     is in the other, or all that stands at one place in both is equal and has a number that counts tests, as 'T3.csv' of
     a day in the week's: logs of two tests may well be equal, as a speed that both were told."""
-    asked = _Asked(folder)
-    known = _Known(asked)
+    asked = _OncePerFile(folder)
+    known = _ByLogName(asked)
     archives: dict[Path, dict[str, PurePosixPath]] = {}
     alone = []
     for path in paths:
@@ -36,9 +36,9 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         else:
             known.add(path)
     found = {p: of for p in alone if (of := known.like(p)) is not None}
-    beside: dict[PurePosixPath, _Known] = {}
+    beside: dict[PurePosixPath, _ByLogName] = {}
     for path in (p for p in alone if p not in found):
-        if (of := beside.setdefault(path.parent, _Known(asked)).like(path)) is not None:
+        if (of := beside.setdefault(path.parent, _ByLogName(asked)).like(path)) is not None:
             found[path] = of
         else:
             beside[path.parent].add(path)
@@ -53,7 +53,7 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     return found
 
 
-class _Asked:
+class _OncePerFile:
     """What is asked of files, once each."""
 
     def __init__(self, folder: Path) -> None:
@@ -69,10 +69,10 @@ class _Asked:
         return self.may_be(path, of) and self.digest(path) == self.digest(of) is not None
 
 
-class _Known:
+class _ByLogName:
     """Files by the names of their logs."""
 
-    def __init__(self, asked: _Asked) -> None:
+    def __init__(self, asked: _OncePerFile) -> None:
         self._asked, self._named = asked, dict[str, list[PurePosixPath]]()
 
     def add(self, path: PurePosixPath) -> None:
@@ -121,14 +121,14 @@ class _Archive:
 class _Archives:
     """Those that were looked at, by what is no copy in them: an archive is held only against such as share a name."""
 
-    def __init__(self, asked: _Asked) -> None:
+    def __init__(self, asked: _OncePerFile) -> None:
         self._asked = asked
-        self._named: dict[str, list[_Known]] = {}
+        self._named: dict[str, list[_ByLogName]] = {}
         self._at: dict[str, list[tuple[_Archive, PurePosixPath]]] = {}
 
     def add(self, archive: _Archive, files: Mapping[str, PurePosixPath]) -> None:
         """files: those in it that are no copies, by their paths within it."""
-        known = _Known(self._asked)
+        known = _ByLogName(self._asked)
         for inside, path in files.items():
             known.add(path)
             self._at.setdefault(inside, []).append((archive, path))
@@ -138,7 +138,7 @@ class _Archives:
     def with_all(self, paths: Iterable[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
         """The same, in one other archive, of all that can be read in one; none where no other has all."""
         paths = [p for p in paths if self._asked.size(p) is not None]
-        others: list[_Known] = min((self._named.get(self._asked.name(p), []) for p in paths), key=len, default=[])
+        others: list[_ByLogName] = min((self._named.get(self._asked.name(p), []) for p in paths), key=len, default=[])
         return next((again for other in others if (again := other.all_like(paths))), {})
 
     def sharing(self, archive: _Archive, files: Mapping[str, PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:

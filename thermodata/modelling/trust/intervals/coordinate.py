@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from thermodata.modelling.least_squares.design import Nonlinear
-from thermodata.modelling.least_squares.labels import Alike
+from thermodata.modelling.least_squares.labels import SwappableLags
 from thermodata.modelling.least_squares.search import Problem, search
 from thermodata.plugin import Float1D
 
@@ -60,7 +60,7 @@ class Searched:
 
     place: int
     free: Nonlinear
-    like: Sequence[Alike] = ()
+    like: Sequence[SwappableLags] = ()
 
     @property
     def slots(self) -> tuple[int, ...]:
@@ -113,7 +113,7 @@ class Solved:
     slot: int
     name: str
     unit: str
-    like: Sequence[Alike] = ()
+    like: Sequence[SwappableLags] = ()
 
     @property
     def slots(self) -> tuple[int, ...]:

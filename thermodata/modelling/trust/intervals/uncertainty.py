@@ -96,7 +96,7 @@ def _cover(estimate: Estimate) -> Cover | None:
 
 
 @dataclass(frozen=True)
-class Seen:
+class SeenProfile:
     """The profile of a searched parameter. half: of the quadratic interval, in the units of the search; quadratic:
     whether the profile's is the same."""
 
@@ -106,14 +106,14 @@ class Seen:
     quadratic: bool
 
 
-def profiles(problem: Problem, x: Float1D, gains: Float1D, rough: Rough) -> Iterator[Seen]:
+def profiles(problem: Problem, x: Float1D, gains: Float1D, rough: Rough) -> Iterator[SeenProfile]:
     """Of every searched parameter but moments, whose error has no slope; those at a bound as well."""
     estimate = Estimate(problem, x, gains)
     small = _Small(estimate, rough)
     for k, whole, half in _profiles(estimate, lambda k, of, half: isinstance(of, Searched)):
         if isinstance(whole.of, Searched):
             profile = small.instead_of(k, whole)
-            yield Seen(profile, whole.of, half, whole.is_straight(half) or profile.is_quadratic(half))
+            yield SeenProfile(profile, whole.of, half, whole.is_straight(half) or profile.is_quadratic(half))
 
 
 def _profiles(

@@ -14,7 +14,7 @@ from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, Unread, head_start, unread_start
-from thermodata.reader.text.preamble.head_words import Says
+from thermodata.reader.text.preamble.head_words import TimeLabel
 from thermodata.reader.text.times.several_cells.date_parts import row_time
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.time_units import to_ns
@@ -148,7 +148,7 @@ def begun_anew(lines: Sequence[Sequence[str]], begin: Begin | None) -> Begin | N
     if begin is None or begin.of_day:
         return None
     said = head_start(lines, begin.order)
-    if said is None or said.clock_ns is None or said.several or said.either or said.says < Says.RECORDED:
+    if said is None or said.clock_ns is None or said.several or said.either or said.says < TimeLabel.RECORDED:
         return None
     return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, begin.order)
 
@@ -163,9 +163,9 @@ def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
     if said.several or not first.ns:
         return None
     if first.of_day and (_are_times_of_day(said, first) or not (sure or first.near_zero)):
-        taken = not said.zoned and (said.says >= Says.BARE or not sure)
+        taken = not said.zoned and (said.says >= TimeLabel.BARE or not sure)
         return Begin(said.date_ns, True, True, said.text, supposed=said.supposed) if taken else None
-    if said.clock_ns is None or (sure and (said.says < Says.RECORDED or not first.near_zero)):
+    if said.clock_ns is None or (sure and (said.says < TimeLabel.RECORDED or not first.near_zero)):
         return None
     return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text, supposed=said.supposed)
 

@@ -15,7 +15,7 @@ from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.cells.time_forms.time_pattern import DAY_NS, TIME_OF_DAY
 from thermodata.reader.text.cells.time_forms.zone_words import WORDS, offset_ns
 from thermodata.reader.text.cells.values.quotes import clean
-from thermodata.reader.text.preamble.head_words import Says, said_by
+from thermodata.reader.text.preamble.head_words import TimeLabel, said_by
 from thermodata.reader.text.preamble.pass_words import without_pass
 from thermodata.reader.text.preamble.spoken_time import names_a_moment, spoken, tells_the_hour, with_month
 from thermodata.reader.text.preamble.zone_places import without_places
@@ -49,7 +49,7 @@ class Moment:
     date_ns: since 1970, at midnight; clock_ns: in the day; zoned: whether it names its offset from UTC, and is in UTC;
     either: what is open about its order of day and month; supposed: whether it is month first for AM or PM alone."""
 
-    says: Says
+    says: TimeLabel
     text: str
     date_ns: int | None = None
     clock_ns: int | None = None
@@ -63,7 +63,7 @@ class Unread:
     """A line that names a start or a date, and whose moment can't be read whole. says, text: as of `Moment`; timed:
     whether a time of day stands in it, too."""
 
-    says: Says
+    says: TimeLabel
     text: str
     timed: bool
 
@@ -74,7 +74,7 @@ class HeadStart:
     None where no line tells the time of day; either: its day and month may be either way round; several: other lines
     say another start; supposed: as of `Moment`."""
 
-    says: Says
+    says: TimeLabel
     text: str
     date_ns: int
     clock_ns: int | None
@@ -88,7 +88,7 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     """The start that lines above a table say, each as its cells; None where they say no date. order: the declared one
     of day and month; booted: whether the moment at which the logger was switched on may be it."""
     each = (m for cells in lines for m in _moments(cells, order) if isinstance(m, Moment))
-    moments = [m for m in each if booted or m.says is not Says.BOOTED]
+    moments = [m for m in each if booted or m.says is not TimeLabel.BOOTED]
     whole = [m for m in moments if m.date_ns is not None and m.clock_ns is not None]
     dates = [m for m in moments if m.date_ns is not None and m.clock_ns is None]
     clocks = [m for m in moments if m.date_ns is None]
@@ -96,7 +96,7 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     pairs = [
         Moment(_of_two(a, b), f"{a.text}; {b.text}", a.date_ns, b.clock_ns, either=a.either, supposed=a.supposed)
         for a, b in product(dates, clocks)
-        if b.says >= Says.BARE
+        if b.says >= TimeLabel.BARE
     ]
     best = max((m.says for m in whole), default=None)
     paired = max((m.says for m in pairs), default=None)
@@ -110,17 +110,17 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several, first.supposed)
 
 
-def _of_two(date: Moment, clock: Moment) -> Says:
+def _of_two(date: Moment, clock: Moment) -> TimeLabel:
     """What a date and a time of day on two lines say together: of a start where one says so and no other thing."""
     low, high = sorted((date.says, clock.says))
-    return high if high is Says.BEGAN and low >= Says.BARE else min(low, Says.BARE)
+    return high if high is TimeLabel.BEGAN and low >= TimeLabel.BARE else min(low, TimeLabel.BARE)
 
 
 def unread_start(lines: Sequence[Sequence[str]], order: str | None = None, dates: bool = False) -> Unread | None:
     """The surest of the lines above a table that name a start or a date, and whose moment can't be read; None where
     all are read. order: as of `head_start`; dates: whether a mere date would say when the rows began."""
-    every = [m for cells in lines for m in _moments(cells, order) if isinstance(m, Unread) and m.says > Says.MADE]
-    each = [m for m in every if dates or m.timed or m.says is Says.BEGAN]
+    every = [m for cells in lines for m in _moments(cells, order) if isinstance(m, Unread) and m.says > TimeLabel.MADE]
+    each = [m for m in every if dates or m.timed or m.says is TimeLabel.BEGAN]
     return max(each, key=lambda m: m.says, default=None)
 
 
@@ -154,7 +154,7 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
                 found, used = read, n
         if found is not None:
             yield found
-        elif names_a_moment(rest := " ".join([*values, *left[k + 1 : k + _MOST_CELLS]]), says is Says.BEGAN):
+        elif names_a_moment(rest := " ".join([*values, *left[k + 1 : k + _MOST_CELLS]]), says is TimeLabel.BEGAN):
             yield Unread(says, f"{label}: {rest}", tells_the_hour(rest))
         k += 1 + used
 
@@ -175,7 +175,7 @@ def _split(cell: str) -> tuple[str, str, str]:
     return cell.strip(" :="), zone, ""
 
 
-def _read(text: str, zone: str, says: Says, line: str, order: str | None) -> Moment | None:
+def _read(text: str, zone: str, says: TimeLabel, line: str, order: str | None) -> Moment | None:
     """A text as a moment, as it stands or as people write one; None where it is none. zone: that its label names."""
     text = without_places(text)
     if len(text) > _LONGEST_TIME or not re.search(r"\d", text) or _NUMBERED.fullmatch(text):
@@ -183,7 +183,9 @@ def _read(text: str, zone: str, says: Says, line: str, order: str | None) -> Mom
     read, place = _read_plain(text, says, line, order), None
     if read is None and (said := spoken(text)) is not None:
         read, place = _read_plain(said.text, says, line, order), said.place
-        if says is not Says.BEGAN and (said.lasting or not (said.timed or read is None or read.date_ns is not None)):
+        if says is not TimeLabel.BEGAN and (
+            said.lasting or not (said.timed or read is None or read.date_ns is not None)
+        ):
             return None  # which may be a duration
     if read is None or read.zoned or not (zone or place) or read.date_ns is None or read.clock_ns is None:
         return read
@@ -196,7 +198,7 @@ def _read(text: str, zone: str, says: Says, line: str, order: str | None) -> Mom
     return replace(read, date_ns=day, clock_ns=utc - day, zoned=True)
 
 
-def _read_plain(text: str, says: Says, line: str, order: str | None) -> Moment | None:
+def _read_plain(text: str, says: TimeLabel, line: str, order: str | None) -> Moment | None:
     """A text of a date and a time of day that a format reads as a moment; None where none does."""
     clock = timestamp.parse_one(text, time_pattern.with_zone(TIME_OF_DAY, False))
     if clock != NAT:

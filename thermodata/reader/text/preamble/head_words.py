@@ -15,7 +15,7 @@ from enum import IntEnum
 from thermodata.reader.text.cells.time_forms.calendar_words import WEEKDAYS
 
 
-class Says(IntEnum):
+class TimeLabel(IntEnum):
     """What a label says of its time, the surest last."""
 
     MADE = 1  # the file was: exported, printed, created
@@ -70,11 +70,11 @@ _FILLING = (
 _WORDS = {
     **dict.fromkeys(WEEKDAYS.split(), None),
     **dict.fromkeys(_FILLING.split(), None),
-    **dict.fromkeys(_MADE.split(), Says.MADE),
-    **dict.fromkeys(_BOOTED.split(), Says.BOOTED),
-    **dict.fromkeys(_RECORDED.split(), Says.RECORDED),
-    **dict.fromkeys(_BARE.split(), Says.BARE),
-    **dict.fromkeys(_BEGAN.split(), Says.BEGAN),
+    **dict.fromkeys(_MADE.split(), TimeLabel.MADE),
+    **dict.fromkeys(_BOOTED.split(), TimeLabel.BOOTED),
+    **dict.fromkeys(_RECORDED.split(), TimeLabel.RECORDED),
+    **dict.fromkeys(_BARE.split(), TimeLabel.BARE),
+    **dict.fromkeys(_BEGAN.split(), TimeLabel.BEGAN),
 }
 # of what ended, or of what is done to a sensor or a machine at another time
 _OTHER = re.compile(
@@ -86,7 +86,7 @@ _ZONES = re.compile(r"\bIST\b")  # of India, Israel and Ireland, and no German w
 _LONGEST = 60  # letters of a label
 
 
-def said_by(label: str) -> Says | None:
+def said_by(label: str) -> TimeLabel | None:
     """What a label says of the time behind it; None where it is none of a time, or of another: "End", "Calibrated"."""
     if not 0 < len(label) <= _LONGEST:
         return None
@@ -94,16 +94,16 @@ def said_by(label: str) -> Says | None:
     if not words:
         return None
     if any(w not in _WORDS for w in words) or _ZONES.search(label):
-        return Says.NAMED if _names_a_start(words) else None
+        return TimeLabel.NAMED if _names_a_start(words) else None
     known = [s for w in words if (s := _WORDS[w]) is not None]
     if not known:
         return None
     # a file that was made says nothing of its rows, whatever else stands there: "Report date", "Print time"; nor does
     # a logger that was switched on: "Last test boot"
-    return Says.MADE if Says.MADE in known else Says.BOOTED if Says.BOOTED in known else max(known)
+    return TimeLabel.MADE if TimeLabel.MADE in known else TimeLabel.BOOTED if TimeLabel.BOOTED in known else max(known)
 
 
 def _names_a_start(words: Sequence[str]) -> bool:
     """Whether a label with words that nobody knows names a start: of what, is open."""
-    began = any(_WORDS.get(w) is Says.BEGAN for w in words)
+    began = any(_WORDS.get(w) is TimeLabel.BEGAN for w in words)
     return began and not any(_OTHER.fullmatch(w) or w.isdecimal() for w in words)

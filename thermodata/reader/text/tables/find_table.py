@@ -54,11 +54,11 @@ def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
     """
     status = path.stat()
     key = (str(path.resolve()), status.st_mtime_ns, status.st_size, repr(source), stream)
-    return _kept(_Asked(path, source, stream, key))
+    return _kept(_AskedTable(path, source, stream, key))
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _AskedTable:
     path: Path = field(compare=False)
     source: Source = field(compare=False)
     stream: str = field(compare=False)
@@ -66,7 +66,7 @@ class _Asked:
 
 
 @lru_cache(maxsize=4)
-def _kept(asked: _Asked) -> Table:
+def _kept(asked: _AskedTable) -> Table:
     path, source = asked.path, asked.source
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Source
-from thermodata.reader.signals.series import Declaration, Found, Series, find_series
+from thermodata.reader.signals.series import Declaration, FoundSeries, Series, find_series
 from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Chunk
@@ -67,9 +67,9 @@ def _parts(table: Table, most: int) -> Iterator[tuple[int, Sequence[str]]]:
         at, line = at + size, line + size
 
 
-def _series(blocks: list[Block], pieces: Int1D, absolute: bool, declared: Declaration) -> Found:
+def _series(blocks: list[Block], pieces: Int1D, absolute: bool, declared: Declaration) -> FoundSeries:
     if not blocks:
-        return Found()
+        return FoundSeries()
     one = blocks[0]
     values = {k: np.concatenate([b.values[k] for b in blocks]) for k in one.values}
     flags = {

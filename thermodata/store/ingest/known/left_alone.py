@@ -15,7 +15,7 @@ from typing import Any
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.calibration.quality.ends.still import Reading
 from thermodata.store.tidy.clock.source_clock import Clock
-from thermodata.store.tidy.flags.beside.between import Known, Verdict, levels_of
+from thermodata.store.tidy.flags.beside.between import KnownOfTest, Verdict, levels_of
 
 Row = dict[str, Any]
 _NO_VERDICT = Verdict()
@@ -84,7 +84,7 @@ class TestNote:
 
     def levels(self, test: str) -> tuple[Levels, dict[str, Reading]] | None:
         """What its channels were like, for the tests beside it."""
-        known = Known(test, self.start_s, self.warm, self.quantities, self.powered, self.around)
+        known = KnownOfTest(test, self.start_s, self.warm, self.quantities, self.powered, self.around)
         return levels_of(known, self.courses)
 
 

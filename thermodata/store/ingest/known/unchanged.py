@@ -29,7 +29,7 @@ _YOUNG_NS = 2_000_000_000
 
 
 @dataclass(slots=True)
-class Seen:
+class FirstGlance:
     """What an ingest finds before it reads anything. says: a digest of the campaign, its files by name, the readers and
     this program; files: source path -> where it is; marks: source path -> by which a change is noticed, of those that
     can be looked at."""
@@ -57,12 +57,12 @@ class Seen:
         return self.note.with_suffix(".tests")
 
 
-def seen(store: Path, campaign: Path, files: Mapping[str, Path], *words: str) -> Seen:
+def seen(store: Path, campaign: Path, files: Mapping[str, Path], *words: str) -> FirstGlance:
     """words: everything besides the files' content that an answer depends on."""
-    return Seen(store, campaign, _digest("\0".join(words)), files)
+    return FirstGlance(store, campaign, _digest("\0".join(words)), files)
 
 
-def noted(here: Seen) -> Mapping[str, Any]:
+def noted(here: FirstGlance) -> Mapping[str, Any]:
     """What the last ingest of this campaign file noted; nothing where it can't be told."""
     try:
         digest, _, text = here.note.read_text(encoding="utf-8").partition("\n")
@@ -74,7 +74,7 @@ def noted(here: Seen) -> Mapping[str, Any]:
     return kept
 
 
-def known_files(here: Seen, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
+def known_files(here: FirstGlance, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
     """Source path -> the file with the hash that was noted of it, of those that were left alone since."""
     found = {}
     with suppress(ValueError, TypeError, AttributeError, OSError, ThermodataError):  # a note of another version
@@ -85,7 +85,7 @@ def known_files(here: Seen, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
     return found
 
 
-def differing(here: Seen, kept: Mapping[str, Any], mark: str, known: dict[str, SourceFile]) -> set[str] | None:
+def differing(here: FirstGlance, kept: Mapping[str, Any], mark: str, known: dict[str, SourceFile]) -> set[str] | None:
     """The source files that are, or may be, other ones than when the last answer was given; None where anything else
     differs, or may differ.
 
@@ -118,7 +118,7 @@ def summary_of(kept: Mapping[str, Any]) -> dict[str, Any]:
     return dict(kept["summary"])
 
 
-def of_tests(here: Seen, kept: Mapping[str, Any], tests: Sequence[str]) -> dict[str, str]:
+def of_tests(here: FirstGlance, kept: Mapping[str, Any], tests: Sequence[str]) -> dict[str, str]:
     """Test -> its line of the second note, of a note of which at most source files are `differing`; none where it is
     torn. tests: of the campaign file, in its order."""
     try:
@@ -132,7 +132,7 @@ def of_tests(here: Seen, kept: Mapping[str, Any], tests: Sequence[str]) -> dict[
 
 
 def keep(
-    here: Seen,
+    here: FirstGlance,
     mark: str,
     hashes: Mapping[str, str],
     parts: Mapping[str, int | None],

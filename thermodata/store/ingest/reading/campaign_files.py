@@ -13,7 +13,7 @@ from thermodata.plugin import Reader, Source
 from thermodata.reader.contract.guard import described
 from thermodata.reader.finding import registry
 from thermodata.schema.files.campaign import Campaign, JumpCalibration, SourceSpec, Test
-from thermodata.store.ingest.known.unchanged import Seen, seen
+from thermodata.store.ingest.known.unchanged import FirstGlance, seen
 from thermodata.store.ingest.progress import Progress
 from thermodata.store.ingest.reading.resolve import SourceFiles, resolve
 from thermodata.store.ingest.reading.worker import Task
@@ -57,7 +57,7 @@ class CampaignFiles:
         """Source path -> bytes, of those that are not done."""
         return dict(self._sizes)
 
-    def seen(self, campaign_path: Path) -> Seen:
+    def seen(self, campaign_path: Path) -> FirstGlance:
         """What an answer depends on beside the content of the files that were found."""
         versions: dict[str, str | None] = {}
         for source, spec in self.campaign.sources.items():

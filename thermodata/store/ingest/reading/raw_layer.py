@@ -19,9 +19,9 @@ from thermodata.store.ingest.progress import counted
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.resolve import file_inside
 from thermodata.store.ingest.reading.side_by_side import read_side_by_side, workers_for
-from thermodata.store.ingest.reading.wanted import Wanted
+from thermodata.store.ingest.reading.wanted import WantedFile
 from thermodata.store.ingest.reading.worker import Task
-from thermodata.store.ingest.told.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
+from thermodata.store.ingest.told.losses import Losses, ToldOfTest, add_unread, loss_row, tell, unread_signals
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
 from thermodata.store.raw.streams import raw_key, read_raw
@@ -35,7 +35,7 @@ class RawIngest:
     files: CampaignFiles
     inventory: Inventory
     # test -> what is said of it ('': of what belongs to none)
-    said: dict[str, Said] = field(default_factory=lambda: {"": Said()})
+    said: dict[str, ToldOfTest] = field(default_factory=lambda: {"": ToldOfTest()})
     read: int = 0
     _test: str = ""
     # what was said of this time only, and not when the same is ingested again
@@ -88,7 +88,7 @@ class RawIngest:
 
     def plan(self, test: Test) -> TestPlan:
         """A test with the raw streams of all its sources."""
-        self._test, self.said[test.id] = test.id, Said()
+        self._test, self.said[test.id] = test.id, ToldOfTest()
         plan = TestPlan(self.files.campaign, test)
         for name, spec in self.files.campaign.sources.items():
             plan.sources[name] = self._source(test, name, spec.of_test(test.id).with_clock(test.clocks.get(name)))
@@ -119,7 +119,7 @@ class RawIngest:
                 self.passing = True
             else:
                 kept = before.get(path, [])
-                plan.raws += self._file(Wanted(path, name, spec, test.id, (test.id, name), kept, path not in there))
+                plan.raws += self._file(WantedFile(path, name, spec, test.id, (test.id, name), kept, path not in there))
         if not files.paths and not plan.raws and files.patterns:
             text = f"test '{test.id}': no file of source '{name}' ({', '.join(files.patterns)})"
             if files.explicit:
@@ -158,7 +158,7 @@ class RawIngest:
             if is_there(path) or before:
                 gone = not is_there(path)
                 streams[name] = self._file(
-                    Wanted(spec.file, spec.source, source, f"calibration {name}", ("", name), before, gone)
+                    WantedFile(spec.file, spec.source, source, f"calibration {name}", ("", name), before, gone)
                 )
             else:
                 near = nearest(path.name, [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else [])
@@ -173,7 +173,7 @@ class RawIngest:
                 )
         return streams
 
-    def _file(self, wanted: Wanted) -> list[RawStream]:
+    def _file(self, wanted: WantedFile) -> list[RawStream]:
         """The raw streams of one file; [] and a loss where it can't be read."""
         path, reader = wanted.path, self.files.reader(wanted.spec.reader, wanted.source)
         if path in self.files.campaign.versions:
@@ -191,7 +191,7 @@ class RawIngest:
             tell(raws, unread, self.said[self._test], every, wanted.as_read, again=not fresh)
         return raws
 
-    def _read_or_former(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
+    def _read_or_former(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
         """What is read of a file, or where that fails what was read of it before, and why."""
         try:
             return self._read(wanted, reader)
@@ -204,7 +204,7 @@ class RawIngest:
             add_unread(self.losses, "; ".join(str(error).splitlines()), wanted.as_read)
             return self._former(wanted)
 
-    def _copy(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
+    def _copy(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
         """The store's own copy of a file that isn't there any more."""
         path, before = wanted.path, list(wanted.before)
         if before and not all(is_whole(self.files.store / r.path) for r in before):
@@ -221,7 +221,7 @@ class RawIngest:
                 self.losses.append(loss_row(f"not there to be read again: the store's raw copy was {why}", file=path))
         return before
 
-    def _former(self, wanted: Wanted) -> list[RawStream]:
+    def _former(self, wanted: WantedFile) -> list[RawStream]:
         """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
         path, before = wanted.path, list(wanted.before)
         if not before or not all(is_whole(self.files.store / r.path) for r in before):
@@ -232,7 +232,7 @@ class RawIngest:
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
         return before
 
-    def _read(self, wanted: Wanted, reader: Reader) -> list[RawStream]:
+    def _read(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
         path, declaration = wanted.path, wanted.declaration
         file = self.files.settle_readable(path, reader, declaration)
         key = raw_key(file.sha256, reader, declaration)

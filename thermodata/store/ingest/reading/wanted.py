@@ -13,7 +13,7 @@ from thermodata.store.raw.streams import declared
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class WantedFile:
     """path: as the campaign file has it. asker: the test, or 'calibration' with its name. kept_as: test and source of
     its rows in the store. before: what the store holds of it already. gone: it is not there any more."""
 

@@ -70,7 +70,7 @@ class Done:
     warned: tuple[tuple[str, type[Warning], str, int], ...] = ()
 
 
-class _Told(TextProgress):
+class _Progress(TextProgress):
     """Tells of samples from time to time."""
 
     def __init__(self, tell: Callable[[Samples], None]) -> None:
@@ -107,7 +107,7 @@ def _read(task: Task, tell: Callable[[Samples], None]) -> list[RawStream] | None
         return None
     if raw_key(task.file.sha256, reader, task.source) != task.key:
         return None  # not the reader that was asked for
-    told = _Told(tell)
+    told = _Progress(tell)
     try:
         try:
             return read_raw(

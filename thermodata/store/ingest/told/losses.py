@@ -17,7 +17,7 @@ Losses = list[dict[str, Any]]
 
 
 @dataclass(slots=True)
-class Said:
+class ToldOfTest:
     """Of one test, or ('' as its name) of what belongs to none."""
 
     losses: Losses = field(default_factory=list)
@@ -108,8 +108,8 @@ def _bare(name: str) -> str:
 def tell(
     raws: Iterable[RawStream],
     unread: Collection[str],
-    own: Said,
-    every: Iterable[Said],
+    own: ToldOfTest,
+    every: Iterable[ToldOfTest],
     read: FileRead,
     *,
     again: bool,

@@ -15,7 +15,7 @@ from thermodata.schema.units.conversion import converts
 from thermodata.schema.units.quantity import MEASURED, PROBED, STATES
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import schedule
-from thermodata.store.tidy.rows.in_parts import Found, InPart, find_in_parts
+from thermodata.store.tidy.rows.in_parts import FoundSignal, InPart, find_in_parts
 from thermodata.store.tidy.rows.on_change import step_beside
 
 SCHEDULE = "schedule"
@@ -149,7 +149,7 @@ def bind(plan: TestPlan) -> None:
     """Finds the signal of every channel; what can't be found becomes a problem with the nearest right name. Derived
     channels are those of a campaign that passed `check_derived`."""
     channels = effective(plan.campaign, plan.test)
-    read: dict[tuple[str, str, str], tuple[str, Found]] = {}
+    read: dict[tuple[str, str, str], tuple[str, FoundSignal]] = {}
     for name, channel in channels.items():
         if channel.schedule is not None:
             try:
@@ -195,7 +195,7 @@ def bind(plan: TestPlan) -> None:
     _say_what_parts_it(plan)
 
 
-def _tell_two_units(plan: TestPlan, name: str, found: Found, channel: Channel) -> None:
+def _tell_two_units(plan: TestPlan, name: str, found: FoundSignal, channel: Channel) -> None:
     """Tells of a signal whose name says another unit than its file, where the campaign file says none. One of both is
     wrong where they convert; where not, the name may be of before the file's scaling."""
     own = other_unit(found.signal.name, found.signal.unit, channel.quantity == "temperature_difference")

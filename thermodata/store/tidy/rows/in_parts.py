@@ -37,7 +37,7 @@ Parts = Mapping[tuple[str, str], InPart]  # (path of a raw stream, signal of the
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundSignal:
     """The signal behind a name of a campaign file. raw, signal: of the first file that has it; unit: there; parts:
     files that have it otherwise; note: in which units, where they differ."""
 
@@ -65,7 +65,7 @@ def find_signal(raws: Iterable[RawStream], wanted: str) -> tuple[RawStream, Sign
     return first[match.stream, match.name], match, _unit_of(match)
 
 
-def find_in_parts(raws: Iterable[RawStream], channel: Channel) -> Found:
+def find_in_parts(raws: Iterable[RawStream], channel: Channel) -> FoundSignal:
     """The signal of a channel in all files of a test. UsageError as of `find_signal`, and where files have it in units
     that have nothing in common, or in another than the campaign file says."""
     raws = list(raws)
@@ -87,7 +87,7 @@ def find_in_parts(raws: Iterable[RawStream], channel: Channel) -> Found:
         part = _in_unit_of(own, written, signal, next(iter(said), None), channel, said)
         if part != InPart(signal.name):
             parts[other.path, signal.name] = part
-    return Found(raw, signal, unit, parts, _note(said, parts))
+    return FoundSignal(raw, signal, unit, parts, _note(said, parts))
 
 
 def _as_in(raw: RawStream, signal: Signal) -> Signal | None:

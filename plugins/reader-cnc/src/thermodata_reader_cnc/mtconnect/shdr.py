@@ -108,7 +108,7 @@ def describe(path: Path, source: Source) -> Recording:
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of held values, and lines that do not read."""
     look = _Look(path, source)
-    losses = _Some()
+    losses = _FirstLosses()
     table = HeldTable(
         look.plan,
         source,
@@ -168,7 +168,7 @@ def _lines(path: Path, encoding: str) -> Iterator[tuple[int | str, str]]:
             yield -1, tail
 
 
-class _Some:
+class _FirstLosses:
     """The first losses of each kind by name, the rest as a number."""
 
     def __init__(self) -> None:

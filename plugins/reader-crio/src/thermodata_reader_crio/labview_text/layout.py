@@ -19,7 +19,7 @@ from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.times.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
-from thermodata_reader_crio.labview_text.wanted import Wanted, may_be_time
+from thermodata_reader_crio.labview_text.wanted import WantedTime, may_be_time
 
 _MOST_HEADER = 30
 _MAY_BE_1904 = re.compile(rb"[234]\x00?(?:\d\x00?){9}|\d\x00?[eE]")  # UTF-16 has zeros between
@@ -67,7 +67,7 @@ def claims(head: Head) -> str | None:
     if head.size_bytes > len(start) and len(lines) > 1:
         lines.pop()
     try:
-        layout = find_layout(lines, head.name, Wanted(sure=False))
+        layout = find_layout(lines, head.name, WantedTime(sure=False))
     except FormatError:
         return None
     if layout.clock == "1904" and not layout.units[layout.time] and (layout.delimiter == "\t" or not layout.header):
@@ -84,7 +84,7 @@ def _lines(text: str) -> list[str]:
     return [line.rstrip("\r") for line in text.split("\n")] if "\n" in text else text.split("\r")
 
 
-def find_layout(lines: Sequence[str], name: str, wanted: Wanted) -> Layout:
+def find_layout(lines: Sequence[str], name: str, wanted: WantedTime) -> Layout:
     """The layout by a file's first lines. FormatError where they are no rows of numbers, QuestionError where
     nothing tells whether a column is the time."""
     lines = lines[: _MOST_HEADER + _MOST_ROWS]
@@ -176,7 +176,7 @@ def _rows(lines: Sequence[str], delimiter: str) -> _Rows | None:
     return _Rows(lines, cells, delimiter, first, columns, decimal, text)
 
 
-def _made(rows: _Rows, name: str, wanted: Wanted) -> Layout:
+def _made(rows: _Rows, name: str, wanted: WantedTime) -> Layout:
     """With the names, units and time of the columns. name: of the file."""
     heads = rows.heads()
     units_row = len(heads) > 1 and _is_units(heads[-1])
@@ -215,7 +215,7 @@ def _is_units(row: list[str]) -> bool:
 
 
 def _clock(
-    values: Float2D, names: list[str], units: list[str | None], wanted: Wanted, where: str, named: bool
+    values: Float2D, names: list[str], units: list[str | None], wanted: WantedTime, where: str, named: bool
 ) -> tuple[Literal["1904", "seconds", "none"], int, float]:
     """(what the time counts in, its column, seconds in one unit): as declared, by its size, by its header; rows
     without names by even steps."""

@@ -18,7 +18,7 @@ from thermodata.schema.words.sentences import counted
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.labview_text.layout import Layout, find_layout
-from thermodata_reader_crio.labview_text.wanted import Wanted, no_time, wanted_of
+from thermodata_reader_crio.labview_text.wanted import WantedTime, no_time, wanted_of
 from thermodata_reader_crio.row_times import counted_ns, seconds_ns
 
 STREAM = "data"
@@ -48,7 +48,7 @@ def describe(path: Path, source: Source) -> Recording:
     return Recording(tuple(signals), "absolute" if layout.clock == "1904" else "relative", start, None, tuple(notes))
 
 
-def _layout(path: Path, source: Source, wanted: Wanted) -> tuple[Layout, str, list[str]]:
+def _layout(path: Path, source: Source, wanted: WantedTime) -> tuple[Layout, str, list[str]]:
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing
     head = first.head[:-1] if first.whole and not first.ends_with_newline else first.head

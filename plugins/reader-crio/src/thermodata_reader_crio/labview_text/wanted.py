@@ -14,7 +14,7 @@ from thermodata.schema.units.value import value_in
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedTime:
     """column: its name, or number from 1; unit: of a time that counts from a start; period_s: from row to row, where no
     column is the time; sure: whether a column that may be the time or not is asked for."""
 
@@ -24,7 +24,7 @@ class Wanted:
     sure: bool = True
 
 
-def wanted_of(source: Source, where: str) -> Wanted:
+def wanted_of(source: Source, where: str) -> WantedTime:
     """`options: {time: 1, increment: 1 s}`, else `table: {time: {column: 1, unit: s}}` or `{period: 1 s}`. FormatError
     where an answer is open, or for several columns or a unit that counts from a date."""
     said = (source.table or {}).get("time") or {}
@@ -49,7 +49,7 @@ def wanted_of(source: Source, where: str) -> Wanted:
             got=str(unit),
             hint="the rows count from a start: give that as the test's 'start'",
         )
-    return Wanted(column, unit, None if period is None else value_in(period, "s"))
+    return WantedTime(column, unit, None if period is None else value_in(period, "s"))
 
 
 def no_time(names: Sequence[str], where: str) -> QuestionError:

@@ -27,7 +27,7 @@ _IN_CHUNK = frozenset({SCHEMA, CHANNEL, MESSAGE})
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class ChunkPart:
     """Definitions (content and kind), then messages: where their records begin. stop: where the part ends."""
 
     definitions: tuple[tuple[Bytes, int], ...]
@@ -35,7 +35,7 @@ class Part:
     stop: int
 
 
-def chunk_parts(inner: Bytes, index: list[Int1D]) -> Iterator[Part | Damage]:
+def chunk_parts(inner: Bytes, index: list[Int1D]) -> Iterator[ChunkPart | Damage]:
     """All records of a chunk. index: what its message indexes say, where it has some."""
     quick = _by_index(inner, np.sort(np.concatenate(index))) if index else None
     if quick is not None:
@@ -44,7 +44,7 @@ def chunk_parts(inner: Bytes, index: list[Int1D]) -> Iterator[Part | Damage]:
         yield from _by_walking(inner)
 
 
-def _by_index(inner: Bytes, at: Int1D) -> list[Part] | None:
+def _by_index(inner: Bytes, at: Int1D) -> list[ChunkPart] | None:
     """The same as by walking, where the chunk's index names every message: nothing is walked but what lies between
     them. None where the index and the records do not agree: then the records are right."""
     if not at.size or at[0] < 0 or at[-1] + HEAD.size + MESSAGE_HEAD > len(inner):
@@ -55,13 +55,13 @@ def _by_index(inner: Bytes, at: Int1D) -> list[Part] | None:
     ends, starts = np.concatenate([[0], stops]), np.concatenate([at, [len(inner)]])
     if (heads[:, 0] != MESSAGE).any() or (starts < ends).any() or (stops < at + HEAD.size + MESSAGE_HEAD).any():
         return None
-    parts: list[Part] = []
+    parts: list[ChunkPart] = []
     done = 0
     between: list[tuple[Bytes, int]] = []
     for gap in np.flatnonzero(starts != ends).tolist():
         place, stop = int(ends[gap]), int(starts[gap])
         if gap > done:
-            parts.append(Part(tuple(between), at[done:gap], place))
+            parts.append(ChunkPart(tuple(between), at[done:gap], place))
             between, done = [], gap
         while place < stop:
             if place + HEAD.size > stop:
@@ -73,11 +73,11 @@ def _by_index(inner: Bytes, at: Int1D) -> list[Part] | None:
             between.append((inner[record.start : record.stop], opcode))
             place = record.stop
     if between or done < at.size:
-        parts.append(Part(tuple(between), at[done:], len(inner)))
+        parts.append(ChunkPart(tuple(between), at[done:], len(inner)))
     return parts
 
 
-def _by_walking(inner: Bytes) -> Iterator[Part | Damage]:
+def _by_walking(inner: Bytes) -> Iterator[ChunkPart | Damage]:
     at, size, unpack = 0, len(inner), HEAD.unpack_from
     between: list[tuple[Bytes, int]] = []
     found: list[int] = []
@@ -96,19 +96,19 @@ def _by_walking(inner: Bytes) -> Iterator[Part | Damage]:
                 continue
         elif stop <= size and _known(inner, Record(opcode, at + HEAD.size, stop)):
             if found:
-                yield Part(tuple(between), np.array(found, np.int64), at)
+                yield ChunkPart(tuple(between), np.array(found, np.int64), at)
                 between, found = [], []
             between.append((inner[at + HEAD.size : stop], opcode))
             at = stop
             continue
         if found or between:
-            yield Part(tuple(between), np.array(found, np.int64), at)
+            yield ChunkPart(tuple(between), np.array(found, np.int64), at)
             between, found = [], []
         following = next_record(inner, at + 1, None, _IN_CHUNK) or size
         yield Damage(at, following, "no record")
         at = following
     if found or between:
-        yield Part(tuple(between), np.array(found, np.int64), at)
+        yield ChunkPart(tuple(between), np.array(found, np.int64), at)
     if at < size:
         yield Damage(at, size, "no record")
 

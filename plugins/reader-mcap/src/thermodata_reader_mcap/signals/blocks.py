@@ -24,7 +24,7 @@ from thermodata_reader_mcap.signals.options import LOG, PUBLISH
 from thermodata_reader_mcap.signals.plan import Plan, wanted_topic
 from thermodata_reader_mcap.signals.samples.batches_of_samples import parted
 from thermodata_reader_mcap.signals.stamps.header_stamps import stamps
-from thermodata_reader_mcap.signals.units.units_of_channels import Other, in_units_of_topic
+from thermodata_reader_mcap.signals.units.units_of_channels import OtherUnit, in_units_of_topic
 
 BATCH = 16 << 20  # bytes of messages that are collected,
 PART = 2 << 20  # and that become columns at a time
@@ -149,7 +149,7 @@ class Writer:
                 parts[key] = self._made(topic, channel, made, [payloads[k] for k in mine.tolist()])
         return [merged(parts, places)] if parts else []
 
-    def _others(self, topic: Topic, channel: Channel, made: Decoder) -> tuple[Other, ...]:
+    def _others(self, topic: Topic, channel: Channel, made: Decoder) -> tuple[OtherUnit, ...]:
         return self.plan.sent.others(channel, made, topic)
 
     def _made(self, topic: Topic, channel: Channel, made: Decoder, payloads: Sequence[bytes]) -> list[Columns]:

@@ -153,7 +153,7 @@ def _walk(view: memoryview, name: str, source: Source, said: Summary, chunks: Ch
 
 
 @dataclass(slots=True)
-class _Found:
+class _FoundTopics:
     topics: dict[str, Topic] = field(default_factory=dict)
     readers: dict[Channel, Decoder] = field(default_factory=dict)
     unsupported: dict[str, str] = field(default_factory=dict)
@@ -175,7 +175,7 @@ class _Clock:
     notes: list[str]
 
 
-def _clock(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> _Clock:
+def _clock(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) -> _Clock:
     """When the messages of the topics that are read begin, and whether that is a date."""
     used = [b for c, b in batches.items() if c.topic in found.topics]
     times = np.concatenate([np.empty(0, np.uint64), *(b.times()[chosen.time == PUBLISH] for b in used)])
@@ -193,7 +193,7 @@ def _clock(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> _Cl
     return _Clock(start, relative, notes)
 
 
-def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> dict[str, str]:
+def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) -> dict[str, str]:
     """Topic -> the time of its records that is a signal: the one that is not the rows' own, where it says more."""
     if chosen.time != LOG:
         return dict.fromkeys(found.topics, LOG)
@@ -201,14 +201,14 @@ def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _Found) -> d
     return {topic: PUBLISH for topic in found.topics if chosen.publish or topic in different}
 
 
-def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool) -> _Found:
+def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool) -> _FoundTopics:
     """What is read of each topic, by its messages: its signals and how they decode, or why it is not. whole: the
     batches hold all messages."""
     by_topic: dict[str, list[Channel]] = {}
     for channel, batch in batches.items():
         if batch.payloads:
             by_topic.setdefault(channel.topic, []).append(channel)
-    result = _Found()
+    result = _FoundTopics()
     budget = max((WHOLE if whole else WHOLE // 2) // max(1, len(by_topic)), 1 << 16)
     for topic, channels in by_topic.items():
         samples = {c: batches[c].payloads for c in channels}
@@ -228,7 +228,7 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
 
 
 def _senders(
-    found: _Found, batches: dict[Channel, Batch], stamped: dict[str, str], declared: Declaration
+    found: _FoundTopics, batches: dict[Channel, Batch], stamped: dict[str, str], declared: Declaration
 ) -> tuple[dict[str, Series], list[str]]:
     """How topics are taken apart on which several sensors send; notes."""
     declared.check([leaf.name for topic in found.topics.values() for leaf in topic.leaves])
@@ -245,7 +245,7 @@ def _senders(
     return series, notes
 
 
-def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, name: str) -> Options:
+def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics, name: str) -> Options:
     """The options with the unit of a declared time that is one number, where its size tells the unit. FormatError where
     it does not: all messages would stand at their log times."""
     path = chosen.stamp

@@ -28,7 +28,7 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
         # a stream is a topic, or what one sensor sent on it
         sent = ((t, name) for t, one in found.series.items() for name, made in one.streams.items() if made == stream)
         topic, sender = next(sent, (stream, None))
-        asked = _Asked(topic, sender, row)
+        asked = _TopicRow(topic, sender, row)
         number = _message(view, content(view, path.name, found.summary), found, source, asked)
         if number is None:
             return None
@@ -43,7 +43,7 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Asked:
+class _TopicRow:
     """A row of a topic, from 0. sender: whose rows are counted, None for all."""
 
     topic: str
@@ -51,7 +51,7 @@ class _Asked:
     row: int
 
 
-def _message(view: memoryview, met: Content, found: Plan, source: Source, asked: _Asked) -> int | None:
+def _message(view: memoryview, met: Content, found: Plan, source: Source, asked: _TopicRow) -> int | None:
     """The number of a row's message in its topic, from 0: messages that do not read are no rows."""
     topic, sender, row = asked.topic, asked.sender, asked.row
     met.key = lambda channel: channel.topic if channel.topic == topic and wanted_topic(topic, source) else None

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Block
 from thermodata.reader.signals.header_words import SENSOR_WORDS
 from thermodata.reader.signals.interleaved import bare_header
-from thermodata.reader.signals.series import Called, Declaration, Found, find_series
+from thermodata.reader.signals.series import Called, Declaration, FoundSeries, find_series
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS
@@ -32,16 +32,16 @@ def senders(
     taken: Collection[str],
     times: Collection[str],
     declared: Declaration,
-) -> Found:
+) -> FoundSeries:
     """How the messages of a topic are taken apart, each sender a stream called as if it had a topic of its own; none
     where all are of one. taken: the names of other topics; times: signals that its times are, besides its fields."""
     leaves = [leaf for leaf in topic.leaves if not _is_time(leaf.path)]
     words = [leaf for leaf in leaves if _may_name(leaf)]
     if declared.columns is None:
         if not any(map(_may_name, topic.leaves)) or len(topic.leaves) > _MOST_LEAVES:
-            return Found()
+            return FoundSeries()
         if all(len(set(column)) < 2 for column in looked_at(words, batches, made, _GLANCE)[2]):
-            return Found()
+            return FoundSeries()
     logs, pieces, cells = looked_at(leaves, batches, made, _LOOKED_AT)
     order = np.argsort(np.array(logs, np.int64), kind="stable")
     values, flags = dict[str, Array](), dict[str, Array]()

@@ -20,7 +20,7 @@ from thermodata.reader.text.preamble.begin import (
     unused_start,
 )
 from thermodata.reader.text.preamble.head_start import head_start
-from thermodata.reader.text.preamble.head_words import Says
+from thermodata.reader.text.preamble.head_words import TimeLabel
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
 from thermodata_reader_table.mat.planned.stream_plan import TimeVector
 from thermodata_reader_table.mat.tree import Text, Tree
@@ -75,7 +75,7 @@ def begun_beside(tree: Tree, streams: Sequence[_Timed], source: Source, where: s
 def _may_begin(lines: Sequence[Sequence[str]], streams: Sequence[_Timed]) -> bool:
     """Whether one of the texts may say when the signals began. Times of day as text count from the first of them."""
     said = head_start(lines)
-    return said is not None and said.says is Says.BEGAN and all(s.time.texts is None for s in streams)
+    return said is not None and said.says is TimeLabel.BEGAN and all(s.time.texts is None for s in streams)
 
 
 def _first(streams: Sequence[_Timed]) -> FirstTimes:

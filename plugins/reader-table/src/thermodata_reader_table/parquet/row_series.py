@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D
-from thermodata.reader.signals.series import Declaration, Found, find_series
+from thermodata.reader.signals.series import Declaration, FoundSeries, find_series
 from thermodata.reader.text.tables.long_rows import name_column
 from thermodata.reader.times.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
@@ -26,13 +26,13 @@ _HINT = (
 )
 
 
-def series_of(table: Table) -> Found:
+def series_of(table: Table) -> FoundSeries:
     """How the rows are taken apart, as declared or as the rows at many places of the file say. FormatError for a long
     table that cannot be: relative times that begin anew for each name may be of one series or of tests that follow each
     other."""
     declared = Declaration.of((table.source.table or {}).get("series"))
     if table.time is None or declared.columns == ():
-        return Found()
+        return FoundSeries()
     first = _series(table, declared, [(0, _HEAD)])
     tag = name_column(table.names) if first.series is None else table.names.index(first.series.tags[0])
     if tag is None or tag == table.time or (first.series is None and table.dtype(tag) != "str"):
@@ -56,7 +56,7 @@ def _refuse(table: Table, tag: int) -> None:
         )
 
 
-def _series(table: Table, declared: Declaration, places: Sequence[tuple[int, int]]) -> Found:
+def _series(table: Table, declared: Declaration, places: Sequence[tuple[int, int]]) -> FoundSeries:
     """The series of the rows at some places, each (first, past-the-last)."""
     some = [(i, name) for i, name in enumerate(table.names) if i not in (table.time, *table.beside)]
     times = table.stamps(_HEAD) if len(places) == 1 else table.stamps()
@@ -75,7 +75,7 @@ def _series(table: Table, declared: Declaration, places: Sequence[tuple[int, int
         if at >= places[-1][1]:
             break
     if not parts:
-        return Found()
+        return FoundSeries()
     t_ns = times.t_ns[np.concatenate(rows)]
     good = t_ns != NAT
     values = {name: np.concatenate([part[name] for part in parts])[good] for _, name in some}

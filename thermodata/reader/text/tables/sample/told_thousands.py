@@ -20,14 +20,14 @@ _DIFFER = 3  # numbers of either kind, by which columns show how they are writte
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class ToldMark:
     """decimal: the mark; note: by what."""
 
     decimal: str
     note: str
 
 
-def told_thousands(columns: Iterable[Sequence[str]]) -> Told | None:
+def told_thousands(columns: Iterable[Sequence[str]]) -> ToldMark | None:
     """The decimal mark where one of both begins fractions that are no thousands, and the other parts thousands wherever
     it stands: in groups of three digits only, in columns that write what is below a thousand without it and nothing
     above, several numbers of either kind. None where one of this is lacking: numbers may be written in two ways.
@@ -45,5 +45,5 @@ def told_thousands(columns: Iterable[Sequence[str]]) -> Told | None:
         # else three digits behind the mark may be a fixed format, and a few odd cells are no way to write numbers
         if len(set(groups)) < _DIFFER or len({c for column in parted for c in column if _SHORT.fullmatch(c)}) < _DIFFER:
             continue
-        return Told(mark, f"'{other}' parts thousands ('{groups[0]}'), for '{mark}' begins fractions ('{begins}')")
+        return ToldMark(mark, f"'{other}' parts thousands ('{groups[0]}'), for '{mark}' begins fractions ('{begins}')")
     return None

@@ -149,7 +149,7 @@ def _rounded(x: Float1D) -> list[float | None]:
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class KnownOfTest:
     """What is known of a test beside its levels. start_s: on the absolute clock; None where it has none. warm: the
     campaign file says that it started so. quantities: of its channels. powered: those that stay warm or cold while the
     machine is on. around: those that are not of the machine, or nobody says where they are."""
@@ -162,7 +162,7 @@ class Known:
     around: Container[str]
 
 
-def levels_of(known: Known, courses: Iterable[Sequence[Any]]) -> tuple[Levels, dict[str, Reading]] | None:
+def levels_of(known: KnownOfTest, courses: Iterable[Sequence[Any]]) -> tuple[Levels, dict[str, Reading]] | None:
     """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept. courses:
     (end [s], `levels` of its channels) of each file."""
     series: dict[str, Course] = {}

@@ -15,7 +15,7 @@ _NEXT = 1.5  # of the distance of the nearest reading: rounding
 
 
 @dataclass(slots=True)
-class _Seen:
+class _Reading:
     """A reading. n: samples; runs: times that it comes; first, last: at which sample."""
 
     first: int
@@ -28,7 +28,7 @@ class _Seen:
 class Flicker:
     """How far the next readings lie from the one on which a channel stands."""
 
-    readings: dict[float, _Seen] = field(default_factory=dict)
+    readings: dict[float, _Reading] = field(default_factory=dict)
     n: int = 0
     before: float | None = None
 
@@ -55,7 +55,7 @@ class Flicker:
         for value in np.unique(known[starts])[: _MOST_READINGS + 1].tolist():
             mine = known[starts] == value
             rows = starts[mine] + self.n
-            seen = self.readings.setdefault(value, _Seen(int(rows[0]), 0))
+            seen = self.readings.setdefault(value, _Reading(int(rows[0]), 0))
             seen.last = int(rows[-1])
             seen.n += int(lengths[mine].sum())
             seen.runs += len(rows) - int(value == self.before and bool(mine[0]))

@@ -68,7 +68,7 @@ SAME = SAME_DATA
 def parse(data: bytes, order: str) -> tuple[list[Object], int]:
     """The objects of a metadata block, and how many of its bytes they take. order: '<' or '>'."""
     read = Cursor(data, order)
-    held, properties = _Alike(read, read.held), _Alike(read, read.properties)
+    held, properties = _RepeatedBytes(read, read.held), _RepeatedBytes(read, read.properties)
     found = []
     for _ in range(read.u32()):
         read.path = read.text()
@@ -76,7 +76,7 @@ def parse(data: bytes, order: str) -> tuple[list[Object], int]:
     return found, read.at
 
 
-class _Alike(Generic[T]):
+class _RepeatedBytes(Generic[T]):
     """What stands at one place of each object in turn. Equal bytes say the same: of 100,000 channels most are like
     another one, so they are parsed once and share one value."""
 

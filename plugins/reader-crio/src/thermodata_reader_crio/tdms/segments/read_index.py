@@ -21,7 +21,7 @@ from thermodata_reader_crio.tdms.segments.lead_in import (
     read_lead_in,
 )
 from thermodata_reader_crio.tdms.segments.object_lists import ObjectLists
-from thermodata_reader_crio.tdms.segments.resync import Found, GoodSegment, find
+from thermodata_reader_crio.tdms.segments.resync import GoodSegment, ResumePoint, find
 
 _MOST_HOLES = 1000
 
@@ -40,7 +40,7 @@ class SegmentReader:
         """Reads the segment at a position. DamageError: it can't be read, and nothing of it was taken."""
         self._take(read_lead_in(self.file, start, self.index.size), None)
 
-    def _take(self, lead: LeadIn, found: Found | None) -> None:
+    def _take(self, lead: LeadIn, found: ResumePoint | None) -> None:
         index = self.index
         end = index.size if lead.end is None else min(lead.end, index.size)
         cut = lead.end is None or lead.end > index.size

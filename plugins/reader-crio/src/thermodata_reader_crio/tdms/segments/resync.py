@@ -30,7 +30,7 @@ class GoodSegment(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class ResumePoint:
     """Where reading goes on. alone: the segment names all that it needs; passed: good segments before it that could
     not be used, for they reuse a list of objects that was lost; missing: (layout, chunks) between, if known."""
 
@@ -41,7 +41,7 @@ class Found:
     missing: tuple[int, int | None]
 
 
-def find(file: BinaryIO, index: Index, last: GoodSegment | None, searched: int, start: int) -> Found | None:
+def find(file: BinaryIO, index: Index, last: GoodSegment | None, searched: int, start: int) -> ResumePoint | None:
     """The next usable segment from byte `searched` on, where a segment was expected at `start`. last: the good one
     before it."""
     for passed, (lead, objects) in enumerate(_candidates(file, searched, index.size)):
@@ -51,7 +51,7 @@ def find(file: BinaryIO, index: Index, last: GoodSegment | None, searched: int, 
         missing = _missing(file, index, last, start, lead)
         follows = lead.start <= start and _whole(index, last, lead.start)
         if alone or follows or (missing[1] is not None and _twin(index, last, lead)):
-            return Found(lead, objects, alone, passed, missing)
+            return ResumePoint(lead, objects, alone, passed, missing)
     return None
 
 

@@ -27,7 +27,7 @@ _ALONE = re.compile(r"units?", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
-class Other:
+class OtherUnit:
     """A field that a channel sends in another unit: value * factor + offset; None where it does not convert."""
 
     name: str
@@ -41,7 +41,7 @@ class UnitsOfChannels:
     """The unit of each field of numbers of each topic; what the channels send in others."""
 
     units: dict[str, dict[str, str]] = field(default_factory=dict)
-    _known: dict[Channel, tuple[Other, ...]] = field(default_factory=dict)
+    _known: dict[Channel, tuple[OtherUnit, ...]] = field(default_factory=dict)
 
     def settle(self, topic: Topic, made: Mapping[Channel, Decoder]) -> Topic:
         """The topic with the units that its channels declare: of several, the first one's."""
@@ -53,7 +53,7 @@ class UnitsOfChannels:
         leaves = [replace(leaf, unit=leaf.unit or own.get(leaf.name)) for leaf in topic.leaves]
         return replace(topic, leaves=tuple(replace(x, dtype="float64") if x.name in floats else x for x in leaves))
 
-    def others(self, channel: Channel, one: Decoder, topic: Topic) -> tuple[Other, ...]:
+    def others(self, channel: Channel, one: Decoder, topic: Topic) -> tuple[OtherUnit, ...]:
         """What a channel sends in another unit than the first one that declared it."""
         known = self._known.get(channel)
         if known is None:
@@ -61,7 +61,7 @@ class UnitsOfChannels:
             found = _declared(channel, one, topic) if own else {}
             pairs = [(n, u, own[n]) for n, u in found.items() if n in own and normal_unit(u) != normal_unit(own[n])]
             known = self._known[channel] = tuple(
-                Other(n, u, w, linear_conversion(u, w) if converts_here(u, w) else None) for n, u, w in pairs
+                OtherUnit(n, u, w, linear_conversion(u, w) if converts_here(u, w) else None) for n, u, w in pairs
             )
         return known
 
@@ -79,7 +79,7 @@ class UnitsOfChannels:
         return f"topic '{topic.name}' comes in several units: {said}" if said else None
 
 
-def in_units_of_topic(part: Columns, others: tuple[Other, ...]) -> Columns:
+def in_units_of_topic(part: Columns, others: tuple[OtherUnit, ...]) -> Columns:
     """Columns of one channel with what it sends in other units converted; what does not convert is no reading."""
     for other in others:
         values = part.values.get(other.name)
