@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mutant import Mutant
 
+ROOT = Path(__file__).resolve().parents[2]
 # the tests that stand beside a module
 BESIDE = {
     "preamble/begin.py": ("head_start",),
@@ -47,7 +50,8 @@ BESIDE = {
 
 def text(file: str, old: str, new: str, why: str, *more: str) -> Mutant:
     """more: further topics whose tests are run."""
-    tests = tuple(f"tests/reader/text/test_{topic}.py" for topic in (*BESIDE[file], *more))
+    beside = (next((ROOT / "tests/reader/text").rglob(f"test_{topic}.py")) for topic in (*BESIDE[file], *more))
+    tests = tuple(path.relative_to(ROOT).as_posix() for path in beside)
     return Mutant(f"thermodata/reader/text/{file}", old, new, why, tests)
 
 

@@ -1,0 +1,77 @@
+"""A text that says that a clock is slow gets the offset, with its sign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.commands import Said
+from thermodata.draft.folder.beside.clock_said import offset_of
+
+
+@pytest.mark.parametrize(
+    ("sentence", "offset"),
+    [
+        ("Control clock is 37 min SLOW against the PC all week", "37 min"),
+        ("the clock of the NC was 2,5 s fast", "-2.5 s"),
+        ("NC clock 1 h ahead", "-1 h"),
+        ("Die Uhr der Steuerung geht 4 Minuten nach", "4 min"),
+        ("Die Uhr der Steuerung geht 4 min vor", "-4 min"),
+        ("Steuerung: Ortszeit, Uhr geht 3 min nach (Steuerung zeigt 3 min zu wenig).", "3 min"),
+        ("hodiny CNC o 12 min pozadu", "12 min"),
+        ("Horloge de la CN en avance (env 1,5 min)", "-1.5 min"),
+        ("L'orologio del Mazak e indietro di 12 min 50 s rispetto al PC", "12 min 50 s"),
+        ("clock 1 h and 2 min ahead", "-1 h 2 min"),
+        ("clock 50 s slow, and 12 min later still", None),
+        ("Nach 4 min die Uhr gestellt", None),
+        ("clock set 5 min before", None),
+        ("the clock is slow", None),
+        ("the spindle was 30 s slow", None),
+        ("clock 5 min slow, later 3 min slow", None),
+    ],
+)
+def test_the_offset_of_a_sentence(sentence: str, offset: str | None) -> None:
+    assert offset_of(sentence) == offset
+
+
+def test_the_draft_says_it(tmp_path: Path, say: Callable[..., Said]) -> None:
+    rows = "".join(f"2026-03-02 08:{k:02d}:00,{20 + k / 10}\n" for k in range(60))
+    (tmp_path / "a.csv").write_text(f"Time,T_bed [degC]\n{rows}")
+    (tmp_path / "README.txt").write_text("Lab 3. Control clock is 37 min SLOW against the PC. Nice weather.\n")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert (
+        "says 'Control clock is 37 min SLOW against the PC': at the source of that clock, clock: {offset: 37 min}"
+        in text
+    )
+
+
+def test_the_draft_says_it_of_amounts_that_are_about_so_large(tmp_path: Path, say: Callable[..., Said]) -> None:
+    rows = "".join(f"2026-03-02 08:{k:02d}:00,{20 + k / 10}\n" for k in range(60))
+    (tmp_path / "a.csv").write_text(f"Time,T_bed [degC]\n{rows}")
+    (tmp_path / "LISEZMOI.txt").write_text("Horloge de la CN en avance (env. 1,5 min). Broche: 22 kW\n")
+    assert say("init", tmp_path).code == 0
+    assert "clock: {offset: -1.5 min}" in (tmp_path / "campaign.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("said", "zone"),
+    [("Uhr: MEZ (keine Sommerzeit)", "Etc/GMT-1"), ("Uhr: Ortszeit", None), ("MEZ GmbH, Halle 3", None)],
+)
+def test_a_zone_that_a_text_says_of_a_clock_is_offered_at_its_question(
+    tmp_path: Path, say: Callable[..., Said], said: str, zone: str | None
+) -> None:
+    rows = "".join(f"2026-03-02 08:{k:02d}:00,{20 + k / 10}\n" for k in range(60))
+    (tmp_path / "a.csv").write_text(f"Time,T_bed [degC]\n{rows}")
+    (tmp_path / "Info.txt").write_text(f"Lab 3\n{said}\n")
+    assert say("init", tmp_path).code == 0
+    (line,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
+    assert (f"Info.txt says '{said}': timezone: {zone}?" in line) is (zone is not None)
+
+
+@pytest.mark.parametrize("hostile", ["1" * 99_000, "geht " * 19_000])
+def test_a_sentence_longer_than_anybody_writes_says_nothing(hostile: str) -> None:
+    """Its patterns take the square of its length: ten minutes of these."""
+    assert offset_of(hostile + "clock 3 min slow") is None
