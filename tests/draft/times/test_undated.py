@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 import pytest
 
-from thermodata.draft.files.raw_file import described_files
+from thermodata.draft.files.described_file import described_files
 from thermodata.draft.make import draft_files
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.reader.text.preamble.begin import EITHER

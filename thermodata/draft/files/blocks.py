@@ -15,7 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.draft.files.raw_file import FileQuestion, RawFile, RowsOfTest, described_file
+from thermodata.draft.files.described_file import described_file
+from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.raw_file import RawFile, RowsOfTest
 from thermodata.draft.files.sample import Watch, sample_of
 from thermodata.draft.signals.numerals import bare_word
 from thermodata.draft.words.naming import words

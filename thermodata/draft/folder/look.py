@@ -9,8 +9,9 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.archive.members import size_of
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
+from thermodata.draft.files.described_file import claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.files.letters_of_files import common
-from thermodata.draft.files.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import SMALL, Watch, short
 from thermodata.draft.folder.files import shape_of, spread
 from thermodata.draft.folder.into_sources.of_one_time import of_one_time

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.archive.cut import cut_archives
-from thermodata.draft.files.raw_file import RawFile, of_one_sheet
+from thermodata.draft.files.described_file import of_one_sheet
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.files import files_below, spread
 from thermodata.draft.folder.into_sources.lent_names import with_lent_names
 from thermodata.draft.folder.into_sources.of_one_time import in_every_file

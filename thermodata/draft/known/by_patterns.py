@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
-from thermodata.draft.files.raw_file import RawFile, described_file, sample_of_file
+from thermodata.draft.files.described_file import described_file, sample_of_file
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.folder.into_tests.group import agreeing, grouped, one_recording
 from thermodata.draft.words.filenames import Naming, normal

@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.archive.members import is_there, size_of
 from thermodata.calibration.jump.plateaus import Step
-from thermodata.draft.files.raw_file import sampled_file
+from thermodata.draft.files.described_file import sampled_file
 from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D

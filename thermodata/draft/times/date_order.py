@@ -11,7 +11,9 @@ from typing import Any
 
 from thermodata.archive.members import standing
 from thermodata.draft.files.day_in_name import day_of_name
-from thermodata.draft.files.raw_file import FileQuestion, RawFile, merged, sample_of_file
+from thermodata.draft.files.described_file import merged, sample_of_file
+from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.into_sources.sources import Group, sources_of
 from thermodata.draft.folder.into_tests.group import tests_of
 from thermodata.draft.times.hints import fitting_others, swapped

@@ -9,7 +9,9 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.archive.unpacked import unpacked
-from thermodata.draft.files.raw_file import FileQuestion, RawFile, described_files, sample_of_file
+from thermodata.draft.files.described_file import described_files, sample_of_file
+from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
 from thermodata.reader.files.rotated import unrotated

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from thermodata.draft.files.raw_file import FileQuestion, RawFile
+from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sheets import recordings_in
 from thermodata.draft.folder.into_sources.one_or_many import told_apart
 from thermodata.schema.words.sentences import with_dots

@@ -8,7 +8,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.draft.files.raw_file import FileQuestion, RawFile, merged
+from thermodata.draft.files.described_file import merged
+from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.files.rotated import unrotated

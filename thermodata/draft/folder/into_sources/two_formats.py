@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from thermodata.draft.files.raw_file import RawFile, described_file
+from thermodata.draft.files.described_file import described_file
+from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.errors import ThermodataError
 from thermodata.reader.finding.registry import reader
