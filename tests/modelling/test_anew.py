@@ -14,7 +14,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.fit.joint import fitted_problem
 from thermodata.modelling.inputs.drivers import start_deviation, start_value
-from thermodata.modelling.least_squares.labels import alike, fastest_first
+from thermodata.modelling.least_squares.labels import fastest_first, swappable_lags
 from thermodata.modelling.least_squares.search import Problem, search
 from thermodata.modelling.trust.intervals.anew import could_fall, fit_anew
 from thermodata.modelling.trust.intervals.coordinate import Searched
@@ -139,7 +139,7 @@ def test_a_like_lag_that_is_passed_ends_where_a_search_ends(along: bool) -> None
     x = fastest_first(problem, x)
     estimate = Estimate(problem, x, problem.gains(problem.matrix(x)))
     for place, by in ((0, 0.2), (1, -0.2)):
-        of = Searched(place, problem.free[place], alike(problem))
+        of = Searched(place, problem.free[place], swappable_lags(problem))
         way = estimate.along(place, [0, 1]) if along else None
         profile = Profile(problem, x, of, lambda moved: 1.0, way, estimate.slopes())
         at = float(x[1 - place]) + by

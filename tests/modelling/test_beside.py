@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.compare.beside import MEAN, beside
+from thermodata.modelling.compare.beside import MEAN, models_on_tests
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import Dataset
 
@@ -24,10 +24,10 @@ def _models(world: Dataset, spec: Spec) -> list[Any]:
 
 def test_only_the_named_tests_stand_in_the_table_and_its_mean(world: Dataset, spec: Spec) -> None:
     models = _models(world, spec)
-    every = beside(models, "part")
+    every = models_on_tests(models, "part")
     opened = list(dict.fromkeys(row.test for row in every if row.test != MEAN))
     assert len(opened) > 2
-    some = beside(models, "part", opened[1:3])
+    some = models_on_tests(models, "part", opened[1:3])
     assert [row for row in some if row.test != MEAN] == [row for row in every if row.test in opened[1:3]]
     for name in ("whole", "part"):
         (mean,) = [row for row in some if (row.test, row.model) == (MEAN, name)]
@@ -39,8 +39,8 @@ def test_only_the_named_tests_stand_in_the_table_and_its_mean(world: Dataset, sp
 def test_a_test_that_is_unknown_or_closed_is_refused(world: Dataset, spec: Spec) -> None:
     models = _models(world, spec)
     with pytest.raises(UsageError, match="no test 'nowhere'"):
-        beside(models, "part", ["nowhere"])
+        models_on_tests(models, "part", ["nowhere"])
     (locked, *_) = [test for test in world.tests if test.role == "locked"]
     with pytest.raises(UsageError, match="neither fit nor verify") as refusal:
-        beside(models, "part", [locked.test])
+        models_on_tests(models, "part", [locked.test])
     assert locked.test in str(refusal.value.got)

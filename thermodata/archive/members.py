@@ -155,7 +155,7 @@ def is_there(path: Path) -> bool:
         return False
 
 
-def same(status: os.stat_result) -> tuple[int, ...]:
+def file_state(status: os.stat_result) -> tuple[int, ...]:
     """What changes with a file's content."""
     return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
@@ -163,7 +163,7 @@ def same(status: os.stat_result) -> tuple[int, ...]:
 def listed(archive: Path) -> Listed:
     """The files in an archive, in its order; without hidden ones. FormatError where it is damaged, or holds too much to
     be one of logs."""
-    return _listed(str(archive), same(archive.stat()))
+    return _listed(str(archive), file_state(archive.stat()))
 
 
 @lru_cache(maxsize=64)

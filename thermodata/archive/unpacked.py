@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from thermodata.archive.members import ARCHIVES, archive_of, is_archive, is_archive_name, listed, same
+from thermodata.archive.members import ARCHIVES, archive_of, file_state, is_archive, is_archive_name, listed
 from thermodata.archive.packed_by import how_to_unpack, is_tar, packed, packed_by
 from thermodata.archive.packers import OPEN, SUFFIXES
 from thermodata.archive.process_folder import process_folder
@@ -139,7 +139,7 @@ def _packed_in(path: Path) -> tuple[Path, str] | None:
 
 def _copy(archive: Path, name: str) -> _Copy:
     status = archive.stat()
-    key = (str(archive), name, *same(status))
+    key = (str(archive), name, *file_state(status))
     if key in _copies:
         _copies.move_to_end(key)
         return _copies[key]
@@ -267,7 +267,7 @@ def _parts(archive: Path, name: str) -> Generator[bytes]:
     if archive.suffix.lower() != ".zip":
         yield from _of_tar(archive, name, found.at[name], found.sizes[name])
         return
-    with _zipped(str(archive), same(archive.stat())).open(member) as stream:
+    with _zipped(str(archive), file_state(archive.stat())).open(member) as stream:
         while part := stream.read(_PART):
             yield part
 

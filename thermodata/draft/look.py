@@ -19,7 +19,7 @@ from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
-from thermodata.reader.finding.seen import when
+from thermodata.reader.finding.seen import time_shown
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.conversion import linear_conversion
@@ -200,8 +200,8 @@ def _event(e: QualityEvent, absolute: bool) -> dict[str, Any]:
     return {
         "signal": e.channel,
         "flag": e.flag,
-        "from": when(e.from_ns, absolute),
-        "to": when(e.to_ns, absolute),
+        "from": time_shown(e.from_ns, absolute),
+        "to": time_shown(e.to_ns, absolute),
         "n": e.n,
         "detail": e.detail,
     }

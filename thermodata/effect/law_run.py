@@ -19,47 +19,51 @@ _ARITHMETIC = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, 
 def evaluate(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
     """shape (n,). values: role -> shape (n,), on a grid of step_s [s]; every lag starts in balance."""
     size = max((len(v) for v in values.values()), default=0)
-    return np.broadcast_to(_of(node, values, step_s), (size,)).astype(np.float64)
+    return np.broadcast_to(_values_of(node, values, step_s), (size,)).astype(np.float64)
 
 
-def _of(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
+def _values_of(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
     match node:
         case law.Number(value):
             return np.array(value)
         case law.Symbol(name):
             return values[name]
         case law.Absolute(of):
-            return np.asarray(np.abs(_of(of, values, step_s)))
+            return np.asarray(np.abs(_values_of(of, values, step_s)))
         case law.Binary(operator, left, right):
-            return np.asarray(_ARITHMETIC[operator](_of(left, values, step_s), _of(right, values, step_s)))
+            return np.asarray(
+                _ARITHMETIC[operator](_values_of(left, values, step_s), _values_of(right, values, step_s))
+            )
         case law.Compare(operator, left, right):
-            held = COMPARE[operator](_of(left, values, step_s), _of(right, values, step_s))
+            held = COMPARE[operator](_values_of(left, values, step_s), _values_of(right, values, step_s))
             return np.asarray(held, dtype=np.float64)
         case law.Logic("not", of):
-            return np.asarray(_of(of[0], values, step_s) == 0, dtype=np.float64)
+            return np.asarray(_values_of(of[0], values, step_s) == 0, dtype=np.float64)
         case law.Logic(operator, of):
-            parts = [_of(one, values, step_s) != 0 for one in of]
+            parts = [_values_of(one, values, step_s) != 0 for one in of]
             joined = np.logical_and.reduce(parts) if operator == "and" else np.logical_or.reduce(parts)
             return np.asarray(joined, dtype=np.float64)
         case law.Where(condition, then, other):
-            holds = _of(condition, values, step_s) != 0
-            return np.asarray(np.where(holds, _of(then, values, step_s), _of(other, values, step_s)))
+            holds = _values_of(condition, values, step_s) != 0
+            return np.asarray(np.where(holds, _values_of(then, values, step_s), _values_of(other, values, step_s)))
     return _remembered(node, values, step_s)
 
 
 def _remembered(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
     size = max(len(v) for v in values.values())
     if isinstance(node, law.Lag):
-        u = np.broadcast_to(_of(node.of, values, step_s), (size,)).astype(np.float64)
-        tau = _of(node.tau, values, step_s)
+        u = np.broadcast_to(_values_of(node.of, values, step_s), (size,)).astype(np.float64)
+        tau = _values_of(node.tau, values, step_s)
         if tau.ndim == 0:
             return lag(u, float(tau), step_s)
         return _switched(u, tau, step_s)
     if isinstance(node, law.Delay):
-        u = np.broadcast_to(_of(node.of, values, step_s), (size,)).astype(np.float64)
-        return delayed(u, float(_of(node.dead, values, step_s)), step_s)
+        u = np.broadcast_to(_values_of(node.of, values, step_s), (size,)).astype(np.float64)
+        return delayed(u, float(_values_of(node.dead, values, step_s)), step_s)
     if isinstance(node, law.Filtered):
-        return filtered(np.broadcast_to(_of(node.of, values, step_s), (size,)).astype(np.float64), node.by, step_s)
+        return filtered(
+            np.broadcast_to(_values_of(node.of, values, step_s), (size,)).astype(np.float64), node.by, step_s
+        )
     raise TypeError(type(node))
 
 

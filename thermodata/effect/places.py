@@ -62,7 +62,7 @@ def part_alone(pattern: str) -> str:
     return pattern.removesuffix(_OR_WHOLE)
 
 
-def shown(pattern: str) -> str:
+def readable_place(pattern: str) -> str:
     """A pattern as a person reads it: `{s}spindle` is any spindle, `spindle.bearing?` the part or the whole."""
     part = part_alone(pattern).replace("{s}", "")
     return part if part_alone(pattern) == pattern else f"{part} or {part.rpartition('.')[0]}"

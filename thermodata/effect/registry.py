@@ -100,7 +100,7 @@ def _load() -> tuple[dict[str, Effect], dict[str, str]]:
     failed: dict[str, str] = {}
     for entry in sorted(entry_points(group=GROUP), key=lambda e: e.name):
         try:
-            loaded = _one(entry)
+            loaded = _loaded(entry)
             if loaded.name in found:
                 raise PluginError(f"a second effect is named '{loaded.name}'", got=entry.value)
             found[loaded.name] = loaded
@@ -110,7 +110,7 @@ def _load() -> tuple[dict[str, Effect], dict[str, str]]:
     return found, failed
 
 
-def _one(entry: EntryPoint) -> Effect:
+def _loaded(entry: EntryPoint) -> Effect:
     target = entry.load()
     made = target() if isinstance(target, type) else target
     if not isinstance(made, Effect):

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from thermodata.effect.binding import ANY, Described, bindings
-from thermodata.effect.places import shown
+from thermodata.effect.places import readable_place
 from thermodata.plugin import Effect, Need
 
 _LISTED = 3
@@ -42,7 +42,7 @@ def _why(effect: Effect, channels: Mapping[str, Described]) -> str:
 
 def _need(need: Need) -> str:
     quantity = "channel" if need.quantity == ANY else need.quantity.replace("_", " ")
-    places = [*map(shown, need.places[:_LISTED]), *(["..."] if len(need.places) > _LISTED else [])]
+    places = [*map(readable_place, need.places[:_LISTED]), *(["..."] if len(need.places) > _LISTED else [])]
     return f"{quantity} at {' or '.join(places)}" if places else quantity
 
 

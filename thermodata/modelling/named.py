@@ -41,13 +41,13 @@ def fit_named(store: Store, ref: str) -> FitResult:
 
     if is_file(ref):
         return fit_file(store, Path(ref))
-    from thermodata.store.catalogue.models.renamed import told
+    from thermodata.store.catalogue.models.renamed import renamings
 
     refuse_several_campaigns(store, ref)
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
     spec = as_chosen(stored, data)
-    notes = [told(stored.renamed)] if stored.renamed else []
+    notes = [renamings(stored.renamed)] if stored.renamed else []
     return fit_once(store, spec, read=data, parent=stored.parent, notes=[*notes, *came_since(spec, data)])
 
 

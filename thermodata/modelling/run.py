@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling.compare import elsewhere
-from thermodata.modelling.compare.beside import ModelOnTest, beside
+from thermodata.modelling.compare.beside import ModelOnTest, models_on_tests
 from thermodata.modelling.compare.differences import TestDifference, differences
 from thermodata.modelling.compare.one_version import refuse_stale
 from thermodata.modelling.compare.portability import Portability, portability
@@ -191,7 +191,7 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
     against = find_model(store, reference).model
     refuse_stale(store, found.values(), against)
     loaded = [load(store, identity) for identity in found]
-    return beside([(m.identity, m.fitted, m.data) for m in loaded], against, tests)
+    return models_on_tests([(m.identity, m.fitted, m.data) for m in loaded], against, tests)
 
 
 def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Sequence[str] = ()) -> list[Portability]:

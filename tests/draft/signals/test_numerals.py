@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.draft.signals.numerals import asked, numerals_of
+from thermodata.draft.signals.numerals import numeral_question, numerals_of
 from thermodata.draft.signals.values import joined, values_of
 
 
@@ -56,9 +56,11 @@ def test_lots_of_words_and_few_values_are_no_measured_numbers(cells: list[str]) 
 
 
 def test_what_is_asked_goes_by_what_may_be_meant() -> None:
-    assert asked(("1,5 °C", "0,5")).endswith("is °C the unit of all? write bare numbers of one unit into the file")
-    assert "is kept as text, which has no value: in °C?" in asked(("1,5 °C", ""))
-    assert "is k a unit, or thousands of one?" in asked(("1.5k", ""))
+    assert numeral_question(("1,5 °C", "0,5")).endswith(
+        "is °C the unit of all? write bare numbers of one unit into the file"
+    )
+    assert "is kept as text, which has no value: in °C?" in numeral_question(("1,5 °C", ""))
+    assert "is k a unit, or thousands of one?" in numeral_question(("1.5k", ""))
 
 
 def test_what_one_of_two_files_says_of_them_is_kept() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.words import listed, vocabulary
-from thermodata.draft.words.listed import beyond, says
+from thermodata.draft.words.listed import beyond, holds_word
 from thermodata.draft.words.naming import words
 
 NAMES = [
@@ -31,7 +31,7 @@ LISTS = (
 def test_the_vocabulary_is_found_as_by_one_expression() -> None:
     for line in LISTS:
         one: re.Pattern[str] = listed._pattern(line)
-        assert [n for n in NAMES if says(line, n)] == [n for n in NAMES if one.search(n)], line[:40]
+        assert [n for n in NAMES if holds_word(line, n)] == [n for n in NAMES if one.search(n)], line[:40]
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,8 @@ def test_the_vocabulary_is_found_as_by_one_expression() -> None:
     ],
 )
 def test_a_mark_says_where_a_word_may_stand(line: str, name: str, held: bool) -> None:
-    assert says(line, name) is held
-    assert says(f"zzz. {line} ^qqq yyy", name) is held  # beside others of the list
+    assert holds_word(line, name) is held
+    assert holds_word(f"zzz. {line} ^qqq yyy", name) is held  # beside others of the list
     assert (listed._pattern(line).search(name) is not None) is held
 
 

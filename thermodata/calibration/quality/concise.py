@@ -28,7 +28,7 @@ def concise(events: Sequence[QualityEvent]) -> list[QualityEvent]:
                 groups[-1].append(event)
             else:
                 groups.append([event])
-        shortened += [_one(group) for group in groups]
+        shortened += [_as_one_event(group) for group in groups]
     return sorted(shortened, key=lambda e: (e.from_ns, e.channel or ""))
 
 
@@ -38,7 +38,7 @@ def _base(event: QualityEvent) -> str:
     return event.detail if same else event.flag
 
 
-def _one(group: Sequence[QualityEvent]) -> QualityEvent:
+def _as_one_event(group: Sequence[QualityEvent]) -> QualityEvent:
     if len(group) == 1:
         return group[0]
     reason = next((e.detail for e in group if e.detail), "")

@@ -36,7 +36,7 @@ def each_once(
     left, what was found). channel: of the response, in a test. Drivers stay: what they did is no evidence."""
     found: list[RepeatedSamples] = []
     for number, one in enumerate(tests):
-        found += [a for other in tests[:number] if (a := again(one, other, channel, data.step_s)) is not None]
+        found += [a for other in tests[:number] if (a := repeated_in(one, other, channel, data.step_s)) is not None]
     changed = {t.key: _without(t, channel(t), [a.samples for a in found if a.test is t]) for t in tests}
     gone = {key for key, test in changed.items() if test is not None and not test.sampled(channel(test)).any()}
     told = [replace(a, whole=a.test.key in gone) for a in found]
@@ -44,7 +44,9 @@ def each_once(
     return replace(data, tests=tuple(changed.get(t.key) or t for t in data.tests)), kept, told
 
 
-def again(one: TestData, other: TestData, channel: Callable[[TestData], str], step_s: float) -> RepeatedSamples | None:
+def repeated_in(
+    one: TestData, other: TestData, channel: Callable[[TestData], str], step_s: float
+) -> RepeatedSamples | None:
     """What of one test stands in the other; None where nothing does. step_s: of the grid, on which each sample is a
     mean: one that holds any of the other's is the other's."""
     mine, theirs = channel(one), channel(other)

@@ -67,7 +67,7 @@ def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companio
     return sorted((f for f in found if f is not None), key=_closeness, reverse=True)
 
 
-def on(courses: Sequence[Course], above: float) -> list[Float1D]:
+def when_on(courses: Sequence[Course], above: float) -> list[Float1D]:
     """1 in the steps in which the source is on, else 0; a test each, shape (n,). above: of its nearly largest value."""
     large = float(np.quantile(np.concatenate([c.source for c in courses]), 0.95))
     return [(c.source > above * large).astype(np.float64) for c in courses]
@@ -78,7 +78,7 @@ def hours_of_day(heat: MissingHeat) -> list[float]:
     if not heat.sign:
         return []
     shares: list[dict[int, float]] = []
-    for course, is_on in zip(heat.courses, on(heat.courses, HOURS_REST), strict=True):
+    for course, is_on in zip(heat.courses, when_on(heat.courses, HOURS_REST), strict=True):
         if course.test.start_unix_s is None:
             continue
         middle = course.from_s + course.step_s * (np.arange(len(is_on)) + 0.5)
@@ -111,7 +111,7 @@ def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Compan
     runs = _running(courses, info)
     if runs is None:
         return None
-    is_on = on(courses, SOURCE_RESTS)
+    is_on = when_on(courses, SOURCE_RESTS)
     counts = np.array(
         [[u.sum(), (1 - u).sum(), (s * u).sum(), (s * (1 - u)).sum()] for u, s in zip(runs, is_on, strict=True)]
     )

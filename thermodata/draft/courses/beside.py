@@ -40,7 +40,7 @@ class SignalBeside:
         return before, before == after
 
 
-def beside(
+def signals_beside(
     files: Sequence[RawFile],
     named: Mapping[int, Named],
     home: RawFile,

@@ -12,7 +12,7 @@ from thermodata.draft.courses.moved import Moved, moved_in
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.times.named_days import named_start
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.roles import said_by_name
 from thermodata.draft.words.said_by_names import SaidByNames, said_by
@@ -111,10 +111,10 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     text, moved = words(test), moved_in(files)
     folders = [part for f in files for part in reversed(f.path.parts[:-1])]
     said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
-    by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
-    if by_name == "cutting" and says(_FLUIDS, text) and not (moved.speeds or moved.axes):
+    by_name = next((kind for kind, listed in _KINDS if holds_word(listed, text)), None)
+    if by_name == "cutting" and holds_word(_FLUIDS, text) and not (moved.speeds or moved.axes):
         by_name = None  # 'cutting fluid': what the fluid does, without a cut
-    if by_name == "rotary_axis" and _LINEAR.search(text) and not says(_TURNS, text):
+    if by_name == "rotary_axis" and _LINEAR.search(text) and not holds_word(_TURNS, text):
         by_name = "linear_axis"  # 'tisch_Z': the table travels
     conditions, comments, doubts = _conditions(said, moved, files)
     if by_name is None and ({"speed", "schedule"} & conditions.keys() or said.speeds):
@@ -126,14 +126,14 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     by_data, by = _by_data(moved), "name"
     if by_name is None and _turns(listed.get("speed", "")):
         by_name, by = "spindle", "table"
-    if by_name is None and by_data == "mixed" and says(_DAYS, text):
+    if by_name is None and by_data == "mixed" and holds_word(_DAYS, text):
         by_name = "mixed"
     hint = said_by_name(text)
     kind, comment, question = _decided(by_name, by_data, moved, by)
-    if by_name is None and by_data == "etve" and says(_FLUIDS, text):
+    if by_name is None and by_data == "etve" and holds_word(_FLUIDS, text):
         kind, comment = "other", ""
         question = "kind: the name speaks of pumps or fluids, whose switches are not logged; nothing else moves: etve?"
-    elif by_name is None and by_data == "etve" and says(_DRAUGHTS, text):
+    elif by_name is None and by_data == "etve" and holds_word(_DRAUGHTS, text):
         kind, comment = "other", ""
         question = "kind: the name speaks of a door or a draught; nothing moves: etve?"
     if kind == "linear_axis" and "axis" not in conditions:

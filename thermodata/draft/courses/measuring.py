@@ -9,12 +9,12 @@ from itertools import combinations
 
 import numpy as np
 
-from thermodata.draft.courses.beside import SignalBeside, beside
+from thermodata.draft.courses.beside import SignalBeside, signals_beside
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.probes.out_of_range import LEAST, out_of_range
 from thermodata.draft.times.clocks import Named
 from thermodata.draft.times.one_clock import OneClock
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.switches import MEASURES
 from thermodata.plugin import Bool1D, Float1D
@@ -47,7 +47,7 @@ def rule_of(files: Sequence[RawFile], named: Mapping[int, Named], clocks: Mappin
             out = out_of_range(course.values) if (quantity, place) == ("displacement", "tcp") else None
             if out is None:
                 continue
-            for signals in beside(files, named, file, course.t_ns, clocks):
+            for signals in signals_beside(files, named, file, course.t_ns, clocks):
                 for way in (_by_state, _by_position, _by_feed, _by_feeds):
                     if (found := way(signals, out)) is not None:
                         return Measuring(found, _EXACTLY)
@@ -69,7 +69,7 @@ def _by_state(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
 def _by_named_state(signals: Sequence[SignalBeside], out: Bool1D) -> str | None:
     """A state that by its name says when is measured: on its way to the rest a probe may be in range as well."""
     for one in signals:
-        if one.quantity != "state" or not says(MEASURES, words(one.channel)):
+        if one.quantity != "state" or not holds_word(MEASURES, words(one.channel)):
             continue
         for level in np.unique(one.before[np.isfinite(one.before)])[:_MOST_LEVELS][::-1]:
             holds, sure = one.told(lambda x, level=level: x == level)  # type: ignore[misc]

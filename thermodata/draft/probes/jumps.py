@@ -17,7 +17,7 @@ from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.plugin import Float1D
 
@@ -79,7 +79,7 @@ def jumps_in(file: RawFile) -> list[JumpTest]:
     """The jump tests that a file holds: of the probe that moved most, and of each that moved while the others stood, as
     where the axes were moved in turn. A file whose name says jump and that shows no steps is one with signal None: a
     person must look."""
-    named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
+    named = holds_word(NAMED, words(file.path.stem)) or holds_word(NAMED, words(" ".join(file.path.parent.parts)))
     moved: list[Moved] = []
     probes = _probes(file, named)
     stirred = _others_move(file, probes)

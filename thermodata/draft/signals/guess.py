@@ -21,7 +21,7 @@ from thermodata.draft.signals.told_units.implied_unit import with_unit
 from thermodata.draft.signals.told_units.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.told_units.name_factor import with_factor_asked
 from thermodata.draft.signals.told_units.standard_units import with_standard_unit
-from thermodata.draft.signals.told_units.unit_at_end import beside, inch_asked, strange
+from thermodata.draft.signals.told_units.unit_at_end import inch_asked, strange, unit_of_quantity
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
@@ -196,7 +196,7 @@ def _unit_of_quantity(name: _Name, found: Guess, values: Values | None, describe
     """The unit that a name, or else what the file says of it, has where its quantity tells that it is one. found: by
     the name without a unit."""
     quantity = found.quantity if "name" in found.basis else None
-    at_end = next(filter(None, (beside(end, quantity, values) for end in name.ends)), None)
+    at_end = next(filter(None, (unit_of_quantity(end, quantity, values) for end in name.ends)), None)
     in_name = at_end or bracket_at_end.of_quantity(name.whole_last, quantity)
     return in_name or units.described(described, quantity)
 

@@ -52,7 +52,7 @@ def numerals_of(cells: Sequence[object]) -> Numerals | None:
     return Numerals(np.array([float(numbers.get(word, "nan")) for word in cells]), units, read)
 
 
-def asked(units: tuple[str, str]) -> str:
+def numeral_question(units: tuple[str, str]) -> str:
     """What to ask of numbers that stay words for what stands behind them. units: as of `Numerals`."""
     match = _NUMERAL.fullmatch(unicodedata.normalize("NFKC", units[0]).replace("−", "-"))
     unit = match["unit"] if match is not None else ""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity.guessed import OF_SENSOR, Guess
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.place import described_place, place_of
 from thermodata.draft.words.place_rules import Place
 from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in
@@ -52,11 +52,11 @@ def placed(found: Guess, own: str, text: str, told: str = "") -> Guess:
     letter = axis.upper() if axis and quantity in PROBED else None
     if quantity == "displacement" and place.at == "tcp" and letter is None:
         questions.append("axis?")
-    if says(SETPOINT, own) and quantity not in ("state", "displacement"):
+    if holds_word(SETPOINT, own) and quantity not in ("state", "displacement"):
         questions.append("a set value, not the actual one? written only where it changes: held: true")
-    elif says(LIMIT, own) and quantity not in ("state", "displacement"):
+    elif holds_word(LIMIT, own) and quantity not in ("state", "displacement"):
         questions.append("a limit, or a reading?")
-    elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
+    elif holds_word(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
         questions.append("a difference, not the quantity itself?")
     if found.basis == ("unit",) and place.at is not None and quantity not in ("position", "voltage"):
         # degC at a bearing: the name need not say T
@@ -67,4 +67,4 @@ def placed(found: Guess, own: str, text: str, told: str = "") -> Guess:
 
 def _group_is_test(text: str, own: str) -> bool:
     """A group called 'Spindle test 3' or 'measurement' names the test, not the place."""
-    return says("test. tests. run. versuch. messung. measurement. mereni. 试验 测试", text.removesuffix(own))
+    return holds_word("test. tests. run. versuch. messung. measurement. mereni. 试验 测试", text.removesuffix(own))

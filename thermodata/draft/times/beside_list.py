@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.beside.listed_times import ListedTime, shown
+from thermodata.draft.folder.beside.listed_times import ListedTime, to_the_minute
 
 _NEAR_NS = 300 * 10**9  # by which whoever wrote the list looked at another clock
 _LATE_NS = 12 * 3600 * 10**9  # by which a log begins behind a test of which no end is said
@@ -46,10 +46,10 @@ def _outside(
             more = (hours, hours + 1) if hours else (0,)
             if first is None or any(_fits(first + h * _HOUR_NS, last, h, times[test]) for h in more):
                 continue
-            until = "" if last is None else f" to {shown(last)}"
+            until = "" if last is None else f" to {to_the_minute(last)}"
             found.setdefault(test, []).append(
-                f"{file.path.name} runs from {shown(first)}{until}, and {times[test].said()}: a clock that is off, a "
-                "wrong name, or rows of no test (window: [from, to])"
+                f"{file.path.name} runs from {to_the_minute(first)}{until}, and {times[test].said()}: a clock that is "
+                "off, a wrong name, or rows of no test (window: [from, to])"
             )
     return found
 
@@ -68,7 +68,7 @@ def start_listed(files: Sequence[RawFile], listed: ListedTime | None) -> tuple[s
     undated = [f for f in files if f.counts_from_ns is not None and f.block is None]
     if listed is None or not undated:
         return None, ""
-    at = f"{shown(listed.begin_ns)}{'Z' if listed.zoned else ''}"
+    at = f"{to_the_minute(listed.begin_ns)}{'Z' if listed.zoned else ''}"
     if len(undated) == len(files):
         return at, f"start: as {listed.file} says? it is that of the first row, in the timezone of its source"
     return None, f"start: {at}, as {listed.file} says, if {undated[0].path.name} has no dates and began then"

@@ -42,7 +42,7 @@ class _Listed:
     other: re.Pattern[str] | None
 
 
-def says(listed: str, text: str) -> bool:
+def holds_word(listed: str, text: str) -> bool:
     """Whether a name (as words()) holds one of the listed words."""
     words = _taken_apart(listed)
     if not words.whole.isdisjoint(text.split()):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.listed import beyond, says
+from thermodata.draft.words.listed import beyond, holds_word
 from thermodata.draft.words.place_rules import RULES, Place
 from thermodata.draft.words.switches import MEASURES
 from thermodata.draft.words.vocabulary import (
@@ -68,7 +68,7 @@ def place_of(text: str, quantity: str) -> Place:
         return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
-    if quantity == "state" and (says(OF_CONTROL, text) or says(MEASURES, text)):
+    if quantity == "state" and (holds_word(OF_CONTROL, text) or holds_word(MEASURES, text)):
         said |= {"control"}
     if quantity == "feed" and beyond(f"{QUANTITY_WORDS['feed']} {_OF_PATH}", text):
         said |= {"more than a feed"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 
 _IN_NAMES: tuple[tuple[str, str], ...] = (
@@ -32,7 +32,7 @@ _MOST_WORDS = 3  # 'checked after calibration of the probes' is a remark
 
 def said_by_name(text: str) -> str | None:
     """The role in a test's name, as words()."""
-    return next((role for role, listed in _IN_NAMES if says(listed, text)), None)
+    return next((role for role, listed in _IN_NAMES if holds_word(listed, text)), None)
 
 
 def said_by_list(cells: Mapping[str, str]) -> tuple[str, str] | None:
@@ -40,7 +40,7 @@ def said_by_list(cells: Mapping[str, str]) -> tuple[str, str] | None:
     found: dict[str, str] = {}
     for column, cell in cells.items():
         text = words(cell)
-        roles = [role for role, listed in _IN_LISTS if says(listed, text)]
-        if len(roles) == 1 and len(text.split()) <= _MOST_WORDS and not says(_NOT, text):
+        roles = [role for role, listed in _IN_LISTS if holds_word(listed, text)]
+        if len(roles) == 1 and len(text.split()) <= _MOST_WORDS and not holds_word(_NOT, text):
             found.setdefault(roles[0], column)
     return next(iter(found.items())) if len(found) == 1 else None

@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from thermodata.draft.words.languages import in_all_languages
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 
 _QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
@@ -254,17 +254,17 @@ DIFFERENCE = in_all_languages(
 @lru_cache(maxsize=20_000)
 def places_in(text: str) -> frozenset[str]:
     """The keys of PLACE_WORDS that a name mentions."""
-    return frozenset(key for key, listed in PLACE_WORDS.items() if says(listed, text))
+    return frozenset(key for key, listed in PLACE_WORDS.items() if holds_word(listed, text))
 
 
 @lru_cache(maxsize=20_000)
 def quantities_in(text: str) -> tuple[str, ...]:
     """The keys of QUANTITY_WORDS that a name mentions, in their order."""
-    return tuple(key for key, listed in QUANTITY_WORDS.items() if says(listed, text))
+    return tuple(key for key, listed in QUANTITY_WORDS.items() if holds_word(listed, text))
 
 
 @lru_cache(maxsize=20_000)
 def foreign_in(text: str) -> str | None:
     """What a name says that it is, where that is none of our quantities."""
     own = text.replace("counter spindle", "spindle")  # which counts nothing
-    return next((what for what, listed in FOREIGN if says(listed, own)), None)
+    return next((what for what, listed in FOREIGN if holds_word(listed, own)), None)

@@ -57,7 +57,7 @@ class ModelOnTest:
 _MEANS = ("fit", "initial", "initial_peaks", "residual", "residual_peaks", "low", "high")
 
 
-def beside(
+def models_on_tests(
     models: Sequence[tuple[str, FittedModel, Dataset]], reference: str, tests: Sequence[str] = ()
 ) -> list[ModelOnTest]:
     """Rows by test, response and model, then the means. models: (id, model, its data), the reference among them.

@@ -29,12 +29,12 @@ def fastest_first(problem: Problem, x: Float1D) -> Float1D:
     """The same point of the search with like lags in order; shape (free parameters,). Lags that the model file tells
     apart by name (fixed, bounds, start) stay."""
     out = x.copy()
-    for found in alike(problem):
+    for found in swappable_lags(problem):
         out[list(found.places)] = np.sort(x[list(found.places)])
     return out
 
 
-def alike(problem: Problem) -> list[SwappableLags]:
+def swappable_lags(problem: Problem) -> list[SwappableLags]:
     """All lags of a problem that could change places, by function."""
     by_function = dict[tuple[int, tuple[int, ...]], list[int]]()
     for i, free in enumerate(problem.free):

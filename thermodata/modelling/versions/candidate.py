@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.effect.binding import Described, bindings, unnamed
-from thermodata.effect.places import shown
+from thermodata.effect.places import readable_place
 from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.files.model import EffectSpec, Model
@@ -80,7 +80,8 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
         raise UsageError(
             f"candidate '{candidate}': no channel fits what '{name}' needs",
             expected="; ".join(
-                f"{n.role}: {n.quantity} at {' or '.join(map(shown, n.places)) or 'any place'}" for n in effect.needs
+                f"{n.role}: {n.quantity} at {' or '.join(map(readable_place, n.places)) or 'any place'}"
+                for n in effect.needs
             ),
             got="no such channel with data",
             hint="a channel of that quantity and place in the campaign file (thermodata channels lists those there are)"

@@ -13,7 +13,7 @@ from thermodata.archive.regular import refuse_what_never_ends
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
 from thermodata.reader.contract.guard import asking, described, guarded, held_for
 from thermodata.reader.finding.registry import claims, sniff
-from thermodata.reader.finding.seen import SeenRows, when
+from thermodata.reader.finding.seen import SeenRows, time_shown
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
@@ -87,7 +87,7 @@ def preview(
         "reason": claims(path).get(chosen.name),
         "clock": said.clock,
         "timezone": source.timezone,
-        "start": None if said.start_ns is None else when(said.start_ns, absolute),
+        "start": None if said.start_ns is None else time_shown(said.start_ns, absolute),
         "complete": said.complete,
         "whole": whole,
         **seen.as_json(),

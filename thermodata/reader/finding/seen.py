@@ -100,7 +100,7 @@ class _Stream:
         columns = [_plain(column[:n]) for column in block.values.values()] if n > 0 else []
         for i in range(n):
             values = zip(block.values, [column[i] for column in columns], strict=True)
-            self.head.append({"t": when(int(t[i]), absolute), **dict(values)})
+            self.head.append({"t": time_shown(int(t[i]), absolute), **dict(values)})
         self.rows += t.size
         self.last = int(t[-1])
 
@@ -110,8 +110,8 @@ def _lost(loss: Loss, absolute: bool) -> dict[str, Any]:
         "where": loss.where,
         "reason": loss.reason,
         "fraction": loss.fraction,
-        "from": None if loss.from_ns is None else when(loss.from_ns, absolute),
-        "to": None if loss.to_ns is None else when(loss.to_ns, absolute),
+        "from": None if loss.from_ns is None else time_shown(loss.from_ns, absolute),
+        "to": None if loss.to_ns is None else time_shown(loss.to_ns, absolute),
     }
 
 
@@ -120,8 +120,8 @@ def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) ->
     return {
         "stream": name,
         "rows": stream.rows,
-        "start": None if stream.first is None else when(stream.first, absolute),
-        "end": None if stream.last is None else when(stream.last, absolute),
+        "start": None if stream.first is None else time_shown(stream.first, absolute),
+        "end": None if stream.last is None else time_shown(stream.last, absolute),
         "duration_s": None if stream.first is None or stream.last is None else (stream.last - stream.first) / 1e9,
         "step_s": step,
         "rate_hz": None if not step else 1.0 / step,
@@ -137,7 +137,7 @@ def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) ->
     }
 
 
-def when(t_ns: int, absolute: bool) -> str | float:
+def time_shown(t_ns: int, absolute: bool) -> str | float:
     """A time for people: ISO in UTC, or seconds of a relative clock."""
     if not absolute:
         return t_ns / 1e9

@@ -152,7 +152,7 @@ _OF_CLOCKS_S = 2 * _DAY  # by which a logger's clock may be ahead, its zone in i
 REACH_S = 9e9  # beyond which nanoseconds in int64 end
 
 
-def when(number: float, unit: str) -> str:
+def date_of_count(number: float, unit: str) -> str:
     """The day and hour that a count from a date says."""
     (ns,) = EPOCHS[unit].ns(np.array([number], np.float64))
     return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")

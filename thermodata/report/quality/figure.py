@@ -201,7 +201,7 @@ def _row(trace: Trace, test: TestQuality) -> Row:
     return Row(trace.name, runs)
 
 
-def when(from_s: float | None, to_s: float | None) -> str:
+def span_text(from_s: float | None, to_s: float | None) -> str:
     """'2.5 h – 3.0 h', or one time where both are the same to the eye."""
     a, b = duration(from_s), duration(to_s)
     return a if a == b else f"{a} – {b}"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.report.page.write import page_values, write_page
 from thermodata.report.quality.data import TestQuality, Trace, collect
-from thermodata.report.quality.figure import SEVERITY, draw_test, when
+from thermodata.report.quality.figure import SEVERITY, draw_test, span_text
 from thermodata.report.words.causes import Cause, by_cause
 from thermodata.report.words.numbers import duration, typeset
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
@@ -158,5 +158,7 @@ def _shown(test: TestQuality, key: str) -> dict[str, Any]:
         "losses": [_counted(c) for c in by_cause(test.losses, str)],
         "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
         "total": len(test.events),
-        "events": [{**e, "when": when(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")} for e in longest],
+        "events": [
+            {**e, "when": span_text(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")} for e in longest
+        ],
     }

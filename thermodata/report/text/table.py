@@ -50,10 +50,10 @@ def table(
         for i, ((_, heading), is_number) in enumerate(zip(columns, right, strict=True))
     ]
     room = screen_width() if width is None else width
-    return _told(made, room).replace(_TIE, " ")
+    return _one_table(made, room).replace(_TIE, " ")
 
 
-def _told(columns: Sequence[_Column], room: int) -> str:
+def _one_table(columns: Sequence[_Column], room: int) -> str:
     said, made = _said_once(columns, room)
     parts = _parts(made, room)
     told_apart = len(parts) == 1 or _tells_apart(made[: _names(made, room)])
@@ -62,7 +62,7 @@ def _told(columns: Sequence[_Column], room: int) -> str:
     told = list[str]()
     for a, b in runs:
         shared, run = _said_once([_Column(c.heading, c.cells[a:b], c.right) for c in made[1:]], room)
-        told += [prose(", ".join([f"{made[0].heading} {made[0].cells[a]}", *shared]), room), _told(run, room)]
+        told += [prose(", ".join([f"{made[0].heading} {made[0].cells[a]}", *shared]), room), _one_table(run, room)]
     return "\n\n".join([*said, *told])
 
 

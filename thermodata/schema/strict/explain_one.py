@@ -8,7 +8,7 @@ from typing import Any
 from thermodata.errors import SpecError, nearest
 from thermodata.schema.strict.complaint import Complaint
 from thermodata.schema.strict.declared import MissingKeyError, WrongKeyError, WrongValueError
-from thermodata.schema.strict.explain_types import missed, wanted
+from thermodata.schema.strict.explain_types import missed, right_value
 from thermodata.schema.strict.lines import at_place, dotted_place
 from thermodata.schema.words.sentences import listed
 
@@ -98,7 +98,7 @@ def _wrong_value(of: Complaint) -> SpecError:
         expected, hint = of.fault.expected, of.fault.hint
     else:
         of_model = of.kind in ("model_type", "model_attributes_type")
-        expected = wanted(of.kind, of.context, of.keys(of.place) if of_model else ())
+        expected = right_value(of.kind, of.context, of.keys(of.place) if of_model else ())
         message = (missed(of.kind, expected) if expected is not None else None) or message
     what = f"'{of.name}': {message}" if of.name != "" else message
     return SpecError(what, where=of.where(), expected=expected, got=_short(of.value), hint=hint)

@@ -39,7 +39,7 @@ def missed(kind: str, expected: str) -> str | None:
     return _COUNTED.get(kind)
 
 
-def wanted(kind: str, context: dict[str, Any], keys: Collection[str]) -> str | None:
+def right_value(kind: str, context: dict[str, Any], keys: Collection[str]) -> str | None:
     """What would be right in place of a value that pydantic refuses with an error of this kind; None where only its
     message tells. keys: those of the model that is meant, empty where any will do."""
     if kind in _MAPPINGS:

@@ -15,7 +15,7 @@ from thermodata.schema.files.campaign import Campaign
 from thermodata.store.base.connection import insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.known.files_taken_out import keep_files
-from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
+from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same_rows
 from thermodata.store.ingest.known.looks_of_gone import count_on, keep_looks, keep_looks_at_changed
 from thermodata.store.ingest.known.mark_stale import is_fitted, mark_stale
 from thermodata.store.ingest.known.state import states, version_of
@@ -75,7 +75,7 @@ class Difference:
         return (
             known is not None
             and (known["spec"] == planned.spec or json.loads(known["spec"]) == json.loads(planned.spec))
-            and same(planned.calibrations, self.inventory.calibrations)
+            and same_rows(planned.calibrations, self.inventory.calibrations)
             and not any(self.tests.values())
         )
 
@@ -88,7 +88,7 @@ def difference(planned: Planned, inventory: Inventory) -> Difference:
 
 def _differing(planned: Mapping[str, list[Row]], stored: Mapping[str, list[Row]]) -> set[str]:
     """The tests whose rows of one table differ."""
-    return {t for t in planned.keys() | stored.keys() if not same(planned.get(t, []), stored.get(t, []))}
+    return {t for t in planned.keys() | stored.keys() if not same_rows(planned.get(t, []), stored.get(t, []))}
 
 
 def commit(con: duckdb.DuckDBPyConnection, store: Path, found: Difference, now: datetime) -> list[str]:

@@ -28,11 +28,11 @@ def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
     limit = time.time() - grace_s
     removed, freed, young = 0, 0, 0
     with store.reader() as con:
-        candidates = _unnamed(_files(store.path), store.path, _kept(con))
+        candidates = _unnamed(_files(store.path), store.path, _named_by_rows(con))
     for start in range(0, len(candidates), _BATCH):
         # in turns, so that no writer waits for the whole of it
         with store.standstill() as con:
-            for path in _unnamed(candidates[start : start + _BATCH], store.path, _kept(con)):
+            for path in _unnamed(candidates[start : start + _BATCH], store.path, _named_by_rows(con)):
                 try:
                     size = _deleted(path, limit)
                 except FileNotFoundError:
@@ -71,7 +71,7 @@ def _unnamed(paths: list[Path], store: Path, kept: set[str]) -> list[Path]:
     return [p for p in paths if p.relative_to(store).as_posix() not in kept]
 
 
-def _kept(con: duckdb.DuckDBPyConnection) -> set[str]:
+def _named_by_rows(con: duckdb.DuckDBPyConnection) -> set[str]:
     return {r["path"] for r in fetch(con, "select path from file union select path from prediction")}
 
 

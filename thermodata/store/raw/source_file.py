@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from thermodata.archive.members import archive_of, same, standing
+from thermodata.archive.members import archive_of, file_state, standing
 from thermodata.archive.regular import opened
 from thermodata.archive.unpacked import held
 from thermodata.errors import StoreError
@@ -48,7 +48,7 @@ class SourceFile:
 
 def mark_of(status: os.stat_result) -> tuple[int, ...]:
     """What changes with a file's content: which file it is, its length, and when it was last written."""
-    return same(status)
+    return file_state(status)
 
 
 def settled(path: Path) -> SourceFile:

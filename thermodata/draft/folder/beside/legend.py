@@ -11,7 +11,7 @@ from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.beside.said_twice import begins_with_a_time, of_names
-from thermodata.draft.folder.beside.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, there
+from thermodata.draft.folder.beside.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, readable
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
@@ -76,7 +76,7 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
     own: dict[str, Legend] = {}
     for file in dict.fromkeys((*found.others, *books)):
-        path = there(folder / file)
+        path = readable(folder / file)
         if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
         lists = [] if path.suffix.lower() in WORKBOOKS else [bracketed(path, _MOST_ROWS), listed(path, _MOST_ROWS)]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
@@ -40,10 +40,11 @@ class ListedTime:
     zoned: bool = False
 
     def said(self) -> str:
-        return f"{self.file} says {shown(self.begin_ns)}{f' to {shown(self.end_ns)}' if self.end_ns else ''}"
+        until = f" to {to_the_minute(self.end_ns)}" if self.end_ns else ""
+        return f"{self.file} says {to_the_minute(self.begin_ns)}{until}"
 
 
-def shown(ns: int) -> str:
+def to_the_minute(ns: int) -> str:
     """A time to the minute: '2026-05-06 08:00'."""
     return f"{datetime.fromtimestamp(ns // 10**9, UTC):%Y-%m-%d %H:%M}"
 
@@ -72,7 +73,7 @@ _WANTED = {"begin": (BEGIN, f"{END} {DURATION}"), "end": (END, f"{BEGIN} {DURATI
 
 def _column(titles: Sequence[str], cells: Mapping[str, Sequence[str]], listed: str, but: str) -> int | None:
     """The first column that is called so, and tells hours."""
-    called = (i for i, t in enumerate(titles) if says(listed, t) and not says(but, t))
+    called = (i for i, t in enumerate(titles) if holds_word(listed, t) and not holds_word(but, t))
     return next((i for i in called if any(says_the_hour(c) for c in _filled(cells, i))), None)
 
 
@@ -83,7 +84,7 @@ def _bare_time(
     called = [
         i
         for i, t in enumerate(titles)
-        if (is_time_header(header[i]) or says(DAY, t)) and not says(f"{END} {DURATION}", t)
+        if (is_time_header(header[i]) or holds_word(DAY, t)) and not holds_word(f"{END} {DURATION}", t)
     ]
     telling = [i for i in called if any(says_the_hour(c) for c in _filled(cells, i))]
     dated = [i for i in telling if date is not None or not _is_clock(cells, i)]

@@ -10,9 +10,9 @@ from itertools import pairwise
 from pathlib import Path
 
 from thermodata.draft.folder.beside.listed_times import BEGIN, DURATION, END, ListedTime, listed_times
-from thermodata.draft.folder.beside.table import SUFFIXES, grids_of, is_called_table, there
+from thermodata.draft.folder.beside.table import SUFFIXES, grids_of, is_called_table, readable
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.errors import FormatError
 from thermodata.reader.text import split_unit
@@ -67,7 +67,7 @@ def times_listed(folder: Path, path: str) -> dict[str, ListedTime]:
 
 def _list_in(folder: Path, path: str) -> tuple[list[str], Sequence[str], Sequence[Sequence[str]]]:
     """(the tests that a file lists, its header, a row each)"""
-    own = there(folder / path) if Path(path).suffix.lower() in SUFFIXES else None
+    own = readable(folder / path) if Path(path).suffix.lower() in SUFFIXES else None
     grids = list(grids_of(own, _MOST_ROWS)) if own is not None else []
     for rows in grids:
         body = [r for r in rows if sum(map(bool, r)) >= 2]
@@ -78,15 +78,18 @@ def _list_in(folder: Path, path: str) -> tuple[list[str], Sequence[str], Sequenc
 
 def _named(header: Sequence[str], lines: Sequence[Sequence[str]], path: str) -> list[str]:
     titles = [words(split_unit(t)[0]) for t in header]
-    column = next((i for i, t in enumerate(titles) if says(_KEY, t) and not says(f"{BEGIN} {END} {DURATION}", t)), None)
+    column = next(
+        (i for i, t in enumerate(titles) if holds_word(_KEY, t) and not holds_word(f"{BEGIN} {END} {DURATION}", t)),
+        None,
+    )
     if column is None:
         return []
     names = [line[column].strip() if column < len(line) else "" for line in lines]
     if not all(names) or len(set(names)) < len(names) or _is_logged(header, lines):
         return []
-    begins = any(says(BEGIN, t) for t in titles) and any(says(f"{END} {DURATION}", t) for t in titles)
-    role = any(says(_ROLE, t) for t in titles)
-    called = is_called_table(path) or says(_CALLED, words(Path(path).stem))
+    begins = any(holds_word(BEGIN, t) for t in titles) and any(holds_word(f"{END} {DURATION}", t) for t in titles)
+    role = any(holds_word(_ROLE, t) for t in titles)
+    called = is_called_table(path) or holds_word(_CALLED, words(Path(path).stem))
     # rows that are numbered may be means of a log, from one time to the next
     counted = all(n.isdigit() for n in names)
     said = sum((begins, role, called))

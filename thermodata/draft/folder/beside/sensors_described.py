@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.draft.folder.beside.legend import Legend, LegendEntry, described_by, word_of
-from thermodata.draft.folder.beside.table import grids_of, there
+from thermodata.draft.folder.beside.table import grids_of, readable
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
@@ -77,8 +77,8 @@ def _said_in(path: Path, names: set[str]) -> dict[str, LegendEntry]:
 def _document(path: Path) -> Any:
     """What a file holds, as mappings, lists and plain values; None where it can't be read or is no such file."""
     suffix = path.suffix.lower()
-    called = suffix in _YAML or says(_FILES, words(path.stem))
-    own = there(path) if called and suffix in (*_YAML, ".json", *_TABLES) else None
+    called = suffix in _YAML or holds_word(_FILES, words(path.stem))
+    own = readable(path) if called and suffix in (*_YAML, ".json", *_TABLES) else None
     try:
         if own is None or own.stat().st_size > _LARGEST:
             return None
@@ -137,4 +137,4 @@ def _said(name: str, entry: Any) -> LegendEntry | None:
 
 
 def _is(listed: str, key: object) -> bool:
-    return says(listed, words(str(key)))
+    return holds_word(listed, words(str(key)))

@@ -14,7 +14,7 @@ from thermodata.archive.workbook import check_size
 from thermodata.draft.folder.beside.listed_times import ListedTime, listed_times
 from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.words.filenames import normal
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import plain, words
 from thermodata.draft.words.vocabulary import quantities_in
 from thermodata.errors import FormatError, ThermodataError
@@ -58,10 +58,10 @@ def find_table(
     if not tests:
         return None
     tables = [c for c in candidates if Path(c).suffix.lower() in SUFFIXES]
-    tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
+    tables.sort(key=lambda c: (not holds_word(_NAMED, words(Path(c).stem)), c))
     most = most_rows(len(tests))
     for candidate in tables[:20]:
-        path = there(folder / candidate)
+        path = readable(folder / candidate)
         if path is None or path.stat().st_size > LARGEST:
             continue
         for rows in grids_of(path, most, {normal(t) for t in tests}):
@@ -71,7 +71,7 @@ def find_table(
     return None
 
 
-def there(path: Path) -> Path | None:
+def readable(path: Path) -> Path | None:
     """Where a file can be read; None where it is packed and can't be."""
     try:
         return unpacked(path)
@@ -86,7 +86,7 @@ def most_rows(tests: int) -> int:
 
 def is_called_table(path: str) -> bool:
     """Whether a name says table of tests."""
-    return Path(path).suffix.lower() in SUFFIXES and says(_NAMED, words(Path(path).stem))
+    return Path(path).suffix.lower() in SUFFIXES and holds_word(_NAMED, words(Path(path).stem))
 
 
 def closed_workbooks(paths: Sequence[str]) -> list[str]:
@@ -221,7 +221,7 @@ def _known(title: str) -> str | None:
     """The condition that a title says, in any language; turns a minute are a speed, whatever they are called."""
     text, unit = split_unit(title)
     said = words(text)
-    known = next((name for name, listed in _KNOWN if says(listed, said)), None)
+    known = next((name for name, listed in _KNOWN if holds_word(listed, said)), None)
     if known is None and unit is not None and quantities_of(unit)[:1] == ("rotational_speed",):
         return "speed"
     return known or next((name for name, quantity in _QUANTITIES if quantities_in(said) == (quantity,)), None)

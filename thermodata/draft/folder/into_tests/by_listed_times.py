@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from thermodata.draft.files.raw_file import RawFile, RowsOfTest
-from thermodata.draft.folder.beside.listed_times import ListedTime, shown
+from thermodata.draft.folder.beside.listed_times import ListedTime, to_the_minute
 from thermodata.draft.folder.into_tests.over_tests import within
 from thermodata.draft.words.filenames import normal
 
@@ -78,7 +78,8 @@ def _part(file: RawFile, test: str, at: ListedTime) -> RawFile:
     begin, end = max(at.begin_ns, first), at.end_ns or 0
     window = ((begin - first) / 1e9, (end - first) / 1e9)
     return replace(
-        within(file, begin, end), block=RowsOfTest(test, window, f"{at.file} says {shown(begin)} to {shown(end)}")
+        within(file, begin, end),
+        block=RowsOfTest(test, window, f"{at.file} says {to_the_minute(begin)} to {to_the_minute(end)}"),
     )
 
 

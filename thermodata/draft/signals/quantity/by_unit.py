@@ -10,7 +10,7 @@ from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity.guessed import OF_SENSOR, Guess, range_text
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.vocabulary import places_in
 from thermodata.schema.units.signs import bare_unit
 from thermodata.schema.units.spelling import is_of_humidity
@@ -213,7 +213,7 @@ RULES: tuple[Callable[[Called], Guess | None], ...] = (
 
 def _of_a_probe(own: str) -> bool:
     """Whether a name with an axis says a probe, and no other place."""
-    return (places_in(own) == {"probe"}) or (not places_in(own) and says(_NEST, own))
+    return (places_in(own) == {"probe"}) or (not places_in(own) and holds_word(_NEST, own))
 
 
 def _in_degc(value: float, unit: str) -> float:

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.draft.signals import units
-from thermodata.draft.signals.numerals import asked
+from thermodata.draft.signals.numerals import numeral_question
 from thermodata.draft.signals.quantity.by_name import by_name
 from thermodata.draft.signals.quantity.by_unit import by_unit
 from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess
 from thermodata.draft.signals.values import Values
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
 from thermodata.reader.times.time_units import found_epoch
 from thermodata.schema.units.unit import normal_unit
@@ -44,7 +44,7 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
         )
     if foreign and not _stronger(named, own, unit):
         return Guess(None, unit, why_not=f"{foreign}: none of the quantities")
-    if says(DIFFERENCE, own) and "temperature" in named:
+    if holds_word(DIFFERENCE, own) and "temperature" in named:
         named = ("temperature_difference", *(q for q in named if q != "temperature"))
     if not bare:
         assert unit is not None
@@ -66,7 +66,9 @@ def _of_words(own: str, unit: str | None, bare: bool, values: Values | None) -> 
     """Of a signal whose values are texts. bare: it has no unit."""
     if bare and values is not None and values.numerals:
         if values.units is not None:
-            return Guess(None, unit, why_not=f"{asked(values.units)}, or quantity: label if they measure nothing")
+            return Guess(
+                None, unit, why_not=f"{numeral_question(values.units)}, or quantity: label if they measure nothing"
+            )
         why = f"numbers kept as text ({values.span()}), which have no value: write them as numbers into the file"
         return Guess(None, unit, why_not=f"{why}, or quantity: label if they measure nothing")
     if bare and values is not None and values.text and not foreign_in(own):

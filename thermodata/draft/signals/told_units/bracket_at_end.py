@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 
 from thermodata.draft.signals import units
-from thermodata.draft.words.listed import says
+from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
 from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in
 from thermodata.reader.text import split_unit
@@ -81,4 +81,4 @@ def _said(name: str) -> str | None:
 
 def _is_word(text: str) -> bool:
     said = (places_in(text), quantities_in(text), foreign_in(text))
-    return any(said) or any(says(listed, text) for listed in (SETPOINT, LIMIT, DIFFERENCE))
+    return any(said) or any(holds_word(listed, text) for listed in (SETPOINT, LIMIT, DIFFERENCE))

@@ -37,7 +37,7 @@ _SHORT = ("hz", "cm", "uv", "kv")
 _WORDS = ("foot", "feet", "turn", "count")
 
 
-def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
+def unit_of_quantity(name: str, quantity: str | None, values: Values | None) -> str | None:
     """The unit at the end of a name that says such a quantity: 'power_kw', 'probe_z_m', 'spindle_speed_Hz'. None
     where the values speak against it."""
     share = _SHARE_AT_END.search(name.strip())

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 
-def beside(short: str, others: str) -> str:
+def phrases(short: str, others: str) -> str:
     """Phrases of the vocabulary: each of the short words before and behind each of the others."""
     return " ".join(f"{s}~{o} {o}~{s}" for s in short.split() for o in others.split())

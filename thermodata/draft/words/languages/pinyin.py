@@ -1,7 +1,7 @@
 """What labs write of Chinese in Latin letters without tones, by the keys of the vocabulary. What is short or means
 something else elsewhere ('men', 'you', 'hou') counts beside another word of Chinese only."""
 
-from thermodata.draft.words.languages.beside import beside
+from thermodata.draft.words.languages.beside import phrases
 
 _OTHERS = (
     "zhuzhou zhoucheng zhou dianji hengliang lizhu chuangshen gongzuotai huazhen huazuo daogui sigang luomu "
@@ -33,15 +33,15 @@ WORDS = {
     "spindle": "zhuzhou",
     "counter spindle": "fuzhuzhou beizhuzhou",
     "bearing": "zhoucheng",
-    "front": beside("qian", _OTHERS) + " qianduan qianzhoucheng qianbu.",
-    "rear": beside("hou", _OTHERS) + " houduan houzhoucheng houbu.",
-    "upper": beside("shang", _OTHERS) + " shangbu. dingbu. shangfang.",
-    "lower": beside("xia", _OTHERS) + " xiabu. dibu. xiafang.",
-    "left": beside("zuo", _OTHERS) + " zuoce. zuobian.",
-    "right": beside("you", _OTHERS) + " youce. youbian.",
-    "middle": beside("zhong", _OTHERS) + " zhongjian. zhongbu.",
+    "front": phrases("qian", _OTHERS) + " qianduan qianzhoucheng qianbu.",
+    "rear": phrases("hou", _OTHERS) + " houduan houzhoucheng houbu.",
+    "upper": phrases("shang", _OTHERS) + " shangbu. dingbu. shangfang.",
+    "lower": phrases("xia", _OTHERS) + " xiabu. dibu. xiafang.",
+    "left": phrases("zuo", _OTHERS) + " zuoce. zuobian.",
+    "right": phrases("you", _OTHERS) + " youce. youbian.",
+    "middle": phrases("zhong", _OTHERS) + " zhongjian. zhongbu.",
     "motor": "dianji mada. raozu.",
-    "nut": "luomu. " + beside("simu", _OTHERS),
+    "nut": "luomu. " + phrases("simu", _OTHERS),
     "screw": "sigang. sigan. gunzhusigang",
     "scale": "guangshan",
     "guide": "daogui huakuai.",
@@ -73,13 +73,13 @@ WORDS = {
     "pneumatics": "yasuokongqi yasuo~kongqi qiyuan.",
     "outside": "shiwai. huwai.",
     "floor": "dimian. diji. diban.",
-    "door": beside("men", _OTHERS) + " damen. anquanmen fanghumen",
+    "door": phrases("men", _OTHERS) + " damen. anquanmen fanghumen",
     "gate": "damen.",
     "enclosure": "anquanmen fanghumen",
     "window": "chuanghu",
     "sun": "rizhao taiyang",
     "compensation": "buchang.",
-    "pump": beside("beng", _OTHERS) + " shuibeng youbeng yeyabeng lengquebeng",
+    "pump": phrases("beng", _OTHERS) + " shuibeng youbeng yeyabeng lengquebeng",
     "fan": "fengshan fengji.",
     "setpoint": "sheding zhiling.",
     "limit": "shangxian. xiaxian.",

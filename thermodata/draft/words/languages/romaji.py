@@ -1,7 +1,7 @@
 """What labs write of Japanese in Latin letters, by the keys of the vocabulary. What is short or means something else
 elsewhere ('ue', 'mae', 'mado') counts beside another word of Japanese only."""
 
-from thermodata.draft.words.languages.beside import beside
+from thermodata.draft.words.languages.beside import phrases
 
 _OTHERS = (
     "shujiku syujiku jikuuke jikuke jiku ondo koramu column bed beddo table teburu kuki kion shitsuon kojo koujou yuka "
@@ -14,10 +14,10 @@ WORDS = {
     "rotational_speed": "kaitensu kaitensuu kaitensokudo kaiten~sokudo",
     "feed": "okuri. okurisokudo okuri~sokudo hayaokuri",
     "power": "denryoku",
-    "load": beside("fuka", _OTHERS) + " fukaritsu",
+    "load": phrases("fuka", _OTHERS) + " fukaritsu",
     "torque": "toruku.",
     "current": "denryu. denryuu",
-    "position": beside("ichi", _OTHERS) + " zahyo",
+    "position": phrases("ichi", _OTHERS) + " zahyo",
     "flow": "ryuryo. ryuuryou",
     "pressure": "atsuryoku",
     "humidity": "shitsudo",
@@ -28,15 +28,15 @@ WORDS = {
     "state": "jotai. joutai. kaihei.",
     "spindle": "shujiku syujiku",
     "bearing": "jikuuke jikuke.",
-    "front": beside("mae", _OTHERS) + " maegawa",
+    "front": phrases("mae", _OTHERS) + " maegawa",
     "rear": "ushiro. ushirogawa atogawa",
-    "upper": beside("ue", _OTHERS) + " uegawa jobu. joubu.",
-    "lower": beside("shita", _OTHERS) + " shitagawa kabu.",
+    "upper": phrases("ue", _OTHERS) + " uegawa jobu. joubu.",
+    "lower": phrases("shita", _OTHERS) + " shitagawa kabu.",
     "left": "hidari. hidarigawa",
-    "right": beside("migi", _OTHERS) + " migigawa",
-    "middle": beside("chuo", _OTHERS),
-    "motor": beside("mota", _OTHERS) + " dendoki makisen",
-    "nut": beside("natto", _OTHERS),
+    "right": phrases("migi", _OTHERS) + " migigawa",
+    "middle": phrases("chuo", _OTHERS),
+    "motor": phrases("mota", _OTHERS) + " dendoki makisen",
+    "nut": phrases("natto", _OTHERS),
     "screw": "neji. okurineji okuri~neji boruneji",
     "guide": "annaimen shudomen",
     "gearbox": "gensokuki hensokuki haguruma",
@@ -61,8 +61,8 @@ WORDS = {
     "pneumatics": "asshukukuki asshuku~kuki kuatsu.",
     "outside": "gaiki. okugai.",
     "floor": "yuka. yukamen yukaondo",
-    "door": "tobira. " + beside("doa", _OTHERS),
-    "window": beside("mado", _OTHERS),
+    "door": "tobira. " + phrases("doa", _OTHERS),
+    "window": phrases("mado", _OTHERS),
     "workspace": "kakoshitsu",
     "sun": "nissha. taiyo.",
     "compensation": "hosei.",

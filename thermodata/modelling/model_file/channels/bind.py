@@ -7,7 +7,7 @@ from types import SimpleNamespace
 from typing import cast
 
 from thermodata.effect.binding import ANY, unnamed
-from thermodata.effect.places import holds, shown
+from thermodata.effect.places import holds, readable_place
 from thermodata.errors import SpecError, unknown_name
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.model_file.channels.driver_quantity import refuse_another_quantity
@@ -39,7 +39,7 @@ def bind(
             f"no channel fits what '{effect.name}' needs",
             where=where,
             expected="; ".join(
-                f"{n.role}: {n.quantity} at {' or '.join(map(shown, n.places)) or 'any place'}" for n in rest
+                f"{n.role}: {n.quantity} at {' or '.join(map(readable_place, n.places)) or 'any place'}" for n in rest
             ),
             got=", ".join(f"{n} ({i.quantity} at {i.at})" for n, i in channels.items()),
             hint=f"name it: drivers: {{{rest[0].role}: CHANNEL}}",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.modelling.least_squares.design import MOMENTS
-from thermodata.modelling.least_squares.labels import alike
+from thermodata.modelling.least_squares.labels import swappable_lags
 from thermodata.modelling.least_squares.search import Problem
 from thermodata.modelling.trust.intervals.coordinate import Coordinate, Searched, Solved
 from thermodata.modelling.trust.intervals.slow_noise import Scatter, make_noise, nothing
@@ -40,7 +40,7 @@ class Estimate:
         matrix = problem.matrix(x)
         columns: list[Float1D] = []
         self.owners: list[Owner] = []
-        like = alike(problem)
+        like = swappable_lags(problem)
         for i in range(len(problem.free)) if places is None else places:
             nonlinear = problem.free[i]
             low, high = nonlinear.outside(nonlinear.lower), nonlinear.outside(nonlinear.upper)

@@ -12,7 +12,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.text.clocks.counts_of_seconds import Count, OpenTimes, may_be, scale_question
 from thermodata.reader.times.open_questions import UNKNOWN
-from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, when
+from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, date_of_count, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
@@ -52,7 +52,7 @@ def count_question(name: str, values: Array, where: str, column: int | None = No
     unit = counted_by(name, values)
     if unit is None:
         return None
-    times, count = OpenTimes(name, values[0], where, column), Count(unit, _SAID[unit], when(values[0], unit))
+    times, count = OpenTimes(name, values[0], where, column), Count(unit, _SAID[unit], date_of_count(values[0], unit))
     return may_be(times, count, declare_else="; else {time: {period: 60 s}}")
 
 
@@ -91,7 +91,7 @@ def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: boo
     if seconds is None or not finite.size or float(np.median(np.abs(finite))) * seconds < REACH_S:
         return
     epoch = counted_by(name, finite) or found_epoch(finite)
-    told = f": as {epoch} it is {when(finite[0], epoch)}" if epoch else ""
+    told = f": as {epoch} it is {date_of_count(finite[0], epoch)}" if epoch else ""
     what = f"'{name}' can be no time in {unit}"
     said: dict[str, Any] = {
         "where": where,
@@ -103,7 +103,7 @@ def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: boo
     if epoch is None or declared:
         raise FormatError(what, **said)
     answer = {"time": {"unit": epoch}}
-    then = f"{finite[0]:.14g} is {when(finite[0], epoch)} then, and none in {unit}"
+    then = f"{finite[0]:.14g} is {date_of_count(finite[0], epoch)} then, and none in {unit}"
     ask = f"unit of the time: is '{name}' in {epoch}? {then}"
     raise QuestionError(what, ask=ask, declare=answer, meanwhile=answer, times=[name], **said)
 
@@ -115,7 +115,7 @@ def days_note(name: str, values: Array, unit: str) -> list[str]:
     if unit not in SECONDS or not finite.size or days is None:
         return []
     return [
-        f"'{name}' is read in {unit}, as declared; by itself it counts {days}, from {when(finite[0], days)}: "
+        f"'{name}' is read in {unit}, as declared; by itself it counts {days}, from {date_of_count(finite[0], days)}: "
         f"declare table: {{time: {{unit: {days}}}}} if it does"
     ]
 
@@ -129,7 +129,7 @@ def quick_note(name: str, values: Array, unit: str) -> str | None:
         return None
     epoch = counted_by(name, finite)
     step_us = float(np.mean(steps)) * seconds * 1e6
-    or_as = f"; as {epoch} it begins at {when(finite[0], epoch)}" if epoch else ""
+    or_as = f"; as {epoch} it begins at {date_of_count(finite[0], epoch)}" if epoch else ""
     return (
         f"rows are {step_us:.2g} us apart by '{name}' in {unit}: is that its unit{or_as}? "
         "declare table: {time: {unit: ...}} if it is not"

@@ -12,7 +12,15 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.reader.times.since import leaves_leaps_open
-from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit, when
+from thermodata.reader.times.time_units import (
+    EPOCHS,
+    REACH_S,
+    SECONDS,
+    date_of_count,
+    found_epoch,
+    is_logged,
+    known_unit,
+)
 
 _SCALES = {
     "gps": "GPS time, ahead of UTC by its leap seconds",
@@ -52,8 +60,8 @@ def scale_question(
     if own is None:
         return None
     other = found_epoch(values)
-    instead = "" if other is None else f"; as {other} it is {when(values[0], other)}"
-    count = Count(own, _SCALES[scale], f"{when(values[0], own)} UTC")
+    instead = "" if other is None else f"; as {other} it is {date_of_count(values[0], other)}"
+    count = Count(own, _SCALES[scale], f"{date_of_count(values[0], own)} UTC")
     return may_be(OpenTimes(name, values[0], where, column), count, declare_else=instead, asked_else=instead)
 
 

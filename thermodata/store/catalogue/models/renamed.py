@@ -88,6 +88,6 @@ def with_names(spec: Model, names: Mapping[str, str]) -> Model:
     return spec.model_copy(update={"effects": effects, "response": response})
 
 
-def told(names: Mapping[str, str]) -> str:
+def renamings(names: Mapping[str, str]) -> str:
     """'T_a is called T_b now', of each."""
     return ", ".join(f"{old} is called {new} now" for old, new in names.items())

@@ -10,7 +10,7 @@ from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models.came_after import came_after
 from thermodata.store.catalogue.models.fits import BACK, GONE, STALE, StoredModel, find_model
-from thermodata.store.catalogue.models.renamed import told as told_names
+from thermodata.store.catalogue.models.renamed import renamings as told_names
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change

@@ -140,7 +140,7 @@ def generation_of(con: duckdb.DuckDBPyConnection) -> int:
     return int(row[0]) if row else 0
 
 
-def same(one: list[Row], other: list[Row]) -> bool:
+def same_rows(one: list[Row], other: list[Row]) -> bool:
     """Whether rows say the same, in whatever order and whenever they were written."""
     return one == other or _told(one) == _told(other) or comparable(one) == comparable(other)
 

@@ -223,7 +223,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         return losses.some(event.key, Loss(event.where, reason=f"'{event.key}': {reason}"))
 
     table = HeldTable(look.plan, zoned, complain, ordered=False, keep_all=True)
-    for found in _all(path, look):
+    for found in _events_of_file(path, look):
         if isinstance(found, Loss):
             yield from losses.some("", found)
         else:
@@ -232,7 +232,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     yield from losses.rest(path.name)
 
 
-def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
+def _events_of_file(path: Path, look: _Look) -> Iterator[Event | Loss]:
     part = f"{path.name} line"
     for chunk in chunks(path, look.encoding, _PART):
         for number in chunk.odd:

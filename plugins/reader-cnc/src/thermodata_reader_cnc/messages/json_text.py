@@ -17,7 +17,7 @@ class Number(str):
     __slots__ = ()
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _with_distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
         raise ValueError("a key comes twice")
@@ -26,7 +26,9 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-_DECODER = json.JSONDecoder(object_pairs_hook=_once, parse_float=Number, parse_int=Number, parse_constant=Number)
+_DECODER = json.JSONDecoder(
+    object_pairs_hook=_with_distinct_keys, parse_float=Number, parse_int=Number, parse_constant=Number
+)
 
 
 def loads(text: str) -> Any:

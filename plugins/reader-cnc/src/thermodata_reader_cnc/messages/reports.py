@@ -43,10 +43,10 @@ class _Place(NamedTuple):
 
 def reports(message: Any) -> Iterator[Report]:
     """The values of a message. One without a time has none ('')."""
-    return _of(message, _Place())
+    return _reports_in(message, _Place())
 
 
-def _of(value: Any, at: _Place) -> Iterator[Report]:
+def _reports_in(value: Any, at: _Place) -> Iterator[Report]:
     if at.depth > _DEEPEST:
         return
     if isinstance(value, dict):
@@ -104,7 +104,7 @@ def _of_value(message: Mapping[str, Any], shape: Shape, at: _Place) -> Iterator[
     """Of an object that says what its value is of: a number, a word, or a message in it."""
     value = _unpacked(message[str(shape.value)])
     if not _is_scalar(value):
-        yield from _of(value, _Place(at.time, (*at.labels, at.name), "", at.depth + 1))
+        yield from _reports_in(value, _Place(at.time, (*at.labels, at.name), "", at.depth + 1))
         return
     unit, quality = (_word(message[k]) if k is not None else "" for k in (shape.unit, shape.quality))
     if shape.quality is not None and bare(shape.quality) == QC:
@@ -122,7 +122,7 @@ def _of_values(message: Mapping[str, Any], at: _Place, told: frozenset[str]) -> 
             place = _Place(at.time, at.labels, ".".join(filter(None, (at.name, key))), at.depth + 1)
         else:
             place = _Place(at.time, (*at.labels, *_told_by(key, held)), at.name, at.depth + 1)
-        yield from _of(value, place)
+        yield from _reports_in(value, place)
 
 
 def _told_by(key: str, held: Mapping[str, Any]) -> tuple[str, ...]:
@@ -137,7 +137,7 @@ def _of_list(values: Sequence[Any], at: _Place) -> Iterator[Report]:
         return
     for k, value in enumerate(values):
         said = isinstance(value, dict) and (own := shape_of(tuple(value))) is not None and _says(own)
-        yield from _of(value, _Place(at.time, at.labels, at.name if said else f"{at.name}[{k}]", at.depth + 1))
+        yield from _reports_in(value, _Place(at.time, at.labels, at.name if said else f"{at.name}[{k}]", at.depth + 1))
 
 
 def _says(shape: Shape) -> bool:

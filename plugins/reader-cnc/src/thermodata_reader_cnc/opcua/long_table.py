@@ -224,7 +224,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 
     zoned, _ = look.layout.said.source(source, look.plan.first, look.plan.form)
     table = HeldTable(look.plan, zoned, complain, ordered=look.by_tag, keep_all=True)
-    for event in _all(path, look):
+    for event in _events_of_file(path, look):
         if isinstance(event, Loss):
             yield from limited("", event)
         else:
@@ -246,7 +246,7 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     return told(blocks(path, source), stream, row)
 
 
-def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
+def _events_of_file(path: Path, look: _Look) -> Iterator[Event | Loss]:
     held = b""  # a value in quotes whose end is in the next part
     for chunk in from_line(chunks(path, look.encoding, _PART), look.layout.row + 1):
         for number in chunk.odd:

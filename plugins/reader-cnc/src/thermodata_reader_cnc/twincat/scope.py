@@ -229,7 +229,7 @@ class _Groups:
             if fresh.any():
                 latest = int(block.t_ns.max())
                 self.reached = latest if self.reached is None else max(latest, self.reached)
-                yield block if fresh.all() else _of(block, fresh)
+                yield block if fresh.all() else _some_rows(block, fresh)
 
     def _twice(self, rows: NumberRows) -> Bool1D:
         """The rows that stand twice, shape (n,): all groups of them repeat, where one that is slow repeats alone."""
@@ -276,7 +276,7 @@ def _same(one: Array, other: Array) -> Bool1D:
     return same
 
 
-def _of(block: Block, rows: Bool1D) -> Block:
+def _some_rows(block: Block, rows: Bool1D) -> Block:
     """Some rows of a block."""
     assert block.at is not None
     flags = None if block.flags is None else {name: f[rows] for name, f in block.flags.items()}

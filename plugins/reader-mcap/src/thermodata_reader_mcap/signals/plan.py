@@ -26,7 +26,7 @@ from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options
 from thermodata_reader_mcap.signals.samples.batches_of_samples import Samples, parted
 from thermodata_reader_mcap.signals.samples.find_samples import find_samples
 from thermodata_reader_mcap.signals.several_senders import senders
-from thermodata_reader_mcap.signals.stamps.stamps_apart import apart, first_stamp, rushed, unit_of
+from thermodata_reader_mcap.signals.stamps.stamps_apart import first_stamp, rushed, stamps_note, unit_of
 from thermodata_reader_mcap.signals.survey.chunk_survey import WHOLE, Chunks, chosen_of, survey
 from thermodata_reader_mcap.signals.survey.topic_discovery import by_name, discover, readers
 from thermodata_reader_mcap.signals.units.units_in_messages import units_said
@@ -182,7 +182,9 @@ def _clock(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) 
     times = times[(times < LATEST_NS) & ((times > 0) | (chosen.time != PUBLISH))]  # none was published at 0
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     start = int(times.min()) if times.size else None
-    told = [n for name, topic in found.topics.items() if (n := apart(topic, batches, found.decoders(name), relative))]
+    told = [
+        n for name, topic in found.topics.items() if (n := stamps_note(topic, batches, found.decoders(name), relative))
+    ]
     if relative:  # stamps that are declared may have the dates that the log times lack
         firsts = [first_stamp(chosen, batches, found.decoders(name)) for name in found.topics]
         dated = [ns for ns in firsts if ns is not None and ns >= EARLIEST_NS]

@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _with_distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
         twice = next(key for k, (key, _) in enumerate(pairs) if key in {other for other, _ in pairs[:k]})
@@ -14,7 +14,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-_DECODER = json.JSONDecoder(object_pairs_hook=_once)
+_DECODER = json.JSONDecoder(object_pairs_hook=_with_distinct_keys)
 
 
 def loads(payload: bytes) -> Any:

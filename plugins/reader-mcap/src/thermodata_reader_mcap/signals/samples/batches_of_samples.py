@@ -43,11 +43,11 @@ class Samples:
 
     def times(self, message: Any) -> Int1D | None:
         """The times of a message's samples [ns since 1970], shape (n,); None where it is none."""
-        value = at(message, self.time)
+        value = value_at(message, self.time)
         if not self.step:
             return dated(_listed(value))
-        first, step = dated([value]), at(message, self.step)
-        lengths = Counter(len(v) for a in self.arrays if isinstance(v := at(message, a), list) and are_numbers(v))
+        first, step = dated([value]), value_at(message, self.step)
+        lengths = Counter(len(v) for a in self.arrays if isinstance(v := value_at(message, a), list) and are_numbers(v))
         if first is None or not lengths or not is_number(step) or step <= 0:
             return None
         n = max(lengths.items(), key=lambda item: (item[1], item[0]))[0]
@@ -60,7 +60,7 @@ class Samples:
         t_ns = self.times(message)
         if t_ns is None or not 0 < t_ns.size <= _MOST:
             return None
-        every = {a: _listed(at(message, a)) for a in self.arrays}
+        every = {a: _listed(value_at(message, a)) for a in self.arrays}
         found = {a: v for a, v in every.items() if len(v) == t_ns.size}
         return (t_ns, found) if found else None
 
@@ -160,7 +160,7 @@ def arrays_in(message: Any, inside: Keys = ()) -> Iterator[tuple[Keys, list[Any]
             yield from arrays_in(inner, (*inside, str(key)))
 
 
-def at(message: Any, keys: Keys) -> Any:
+def value_at(message: Any, keys: Keys) -> Any:
     """What keys lead to; None where they end before."""
     for key in keys:
         message = message.get(key) if isinstance(message, Mapping) else None

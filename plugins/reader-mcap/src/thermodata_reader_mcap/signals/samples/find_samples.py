@@ -18,10 +18,10 @@ from thermodata_reader_mcap.signals.samples.batches_of_samples import (
     Samples,
     are_numbers,
     arrays_in,
-    at,
     decoded,
     in_columns,
     samples_of,
+    value_at,
 )
 from thermodata_reader_mcap.signals.samples.messages_of_each_form import messages_of_each_form
 from thermodata_reader_mcap.signals.samples.sample_times import (
@@ -91,7 +91,7 @@ def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
         if own:
             made.append(replace(one, arrays=own))
     wanted = {a for c in made for a in c.arrays}
-    holding = [any(c.held(m) for c in made) for m in messages if any(_is_filled(at(m, a)) for a in wanted)]
+    holding = [any(c.held(m) for c in made) for m in messages if any(_is_filled(value_at(m, a)) for a in wanted)]
     return tuple(made) if sum(holding) >= _MOSTLY * len(holding) else ()
 
 
@@ -125,7 +125,7 @@ def _while_same(one: Keys, other: Keys) -> Iterator[str]:
 def _of_times(time: Keys, arrays: Sequence[Keys], messages: Sequence[Any]) -> Samples | None:
     """The clock of an array of times; None where they are not dated, in order, or of no other array."""
     one = Samples(time)
-    holding = [(m, t) for m in messages if isinstance(at(m, time), list) for t in [one.times(m)]]
+    holding = [(m, t) for m in messages if isinstance(value_at(m, time), list) for t in [one.times(m)]]
     if not _rise([t for _, t in holding]):
         return None
     dated = [(m, t) for m, t in holding if t is not None]
@@ -135,14 +135,14 @@ def _of_times(time: Keys, arrays: Sequence[Keys], messages: Sequence[Any]) -> Sa
 
 def _as_long(array: Keys, dated: Sequence[tuple[Any, Int1D]]) -> bool:
     """Whether nearly all messages that hold an array hold as many values in it as times."""
-    lengths = [(len(v), t.size) for m, t in dated if isinstance(v := at(m, array), list) and v]
+    lengths = [(len(v), t.size) for m, t in dated if isinstance(v := value_at(m, array), list) and v]
     return bool(lengths) and sum(a == b for a, b in lengths) >= _MOSTLY * len(lengths)
 
 
 def _of_steps(inside: Keys, arrays: Sequence[Keys], messages: Sequence[Any]) -> Samples | None:
     """The clock of a first time with a step: both in one object, whose arrays they are of, or of all where it has
     none."""
-    held = next((h for m in messages if isinstance(h := at(m, inside), Mapping)), {})
+    held = next((h for m in messages if isinstance(h := value_at(m, inside), Mapping)), {})
     steps = [k for k in held if word(k)[0] in STEPS | RATES and is_number(held[k])]
     begins = [k for k in held if word(k)[0] in BEGINS and not isinstance(held[k], list | Mapping)]
     of = tuple(a for a in arrays if a[: len(inside)] == inside) or tuple(arrays)
@@ -151,7 +151,7 @@ def _of_steps(inside: Keys, arrays: Sequence[Keys], messages: Sequence[Any]) -> 
             rate = word(step)[0] in RATES
             for each_ns in sizes(step, rate):
                 one = Samples((*inside, begin), of, (*inside, step), each_ns, rate)
-                holding = [t for m in messages if isinstance(at(m, inside), Mapping) for t in [one.times(m)]]
+                holding = [t for m in messages if isinstance(value_at(m, inside), Mapping) for t in [one.times(m)]]
                 if _rise(holding) and _follow(one, [t for t in holding if t is not None]):
                     return one
     return None

@@ -27,7 +27,7 @@ _MOST = 2**63  # beyond which a whole number is no time, and may be no float: JS
 _UNITS = {"unix": "s", "unix_ms": "ms", "unix_us": "us", "unix_ns": "ns"}
 
 
-def apart(
+def stamps_note(
     topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], relative: bool = False
 ) -> str | None:
     """A note where a topic's stamps do not keep one distance from its log times, or these count from a start (relative)
