@@ -210,7 +210,7 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
     (tmp_path / "b.dat").write_text("x\n")
     real = __import__("thermodata.reader.finding.registry", fromlist=["claims"]).claims
     monkeypatch.setattr(
-        "thermodata.draft.files.raw_file.claims",
+        "thermodata.draft.files.described_file.claims",
         lambda path: {"crio": "one reason", "table": "another"} if Path(path).name == "b.dat" else real(path),
     )
     drafted(tmp_path)

@@ -1,4 +1,4 @@
-"""How dates and times are written: a pattern a column. What the cells say, in nanoseconds: times/timestamp.py."""
+"""How dates and times are written: a pattern a column. What they say in nanoseconds: times/one_cell/timestamp.py."""
 
 from __future__ import annotations
 
