@@ -17,8 +17,8 @@ from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.page.layout import Layout
-from thermodata.reader.text.preamble.begin import declared_start
 from thermodata.reader.text.page.timed.group import STREAM, Group
+from thermodata.reader.text.preamble.begin import declared_start
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.blocks.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.tables.sample.zone_named import named_note

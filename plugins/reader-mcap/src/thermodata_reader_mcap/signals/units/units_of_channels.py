@@ -12,7 +12,6 @@ import numpy as np
 from thermodata.reader.signals.row_units import converts_here
 from thermodata.reader.signals.unit_words import is_surely_unit
 from thermodata.reader.text import split_unit
-from thermodata.schema.units.quantity import linear_conversion, normal_unit
 from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.units.unit import normal_unit
 from thermodata_reader_mcap.container.definitions import Channel
