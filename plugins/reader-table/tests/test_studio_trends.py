@@ -9,7 +9,7 @@ import pytest
 from thermodata_reader_table import Reader
 
 from thermodata.plugin import Source
-from thermodata.reader.text.cells.delimiter import find_delimiter
+from thermodata.reader.text.cells.lines.delimiter import find_delimiter
 from thermodata.testing.reader import load
 from thermodata.testing.reader.case import head
 
