@@ -12,7 +12,7 @@ import pytest
 
 from tests.stored_fits import score_of
 from thermodata.errors import UsageError
-from thermodata.report.text.fit import before_after_text, made_worse
+from thermodata.report.text.added import before_after_text, made_worse
 from thermodata.report.words.numbers import in_units
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.campaign import Campaign

@@ -18,12 +18,14 @@ from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.modelling.versions.same_tests import SAME_TESTS
 from thermodata.modelling.versions.with_claims import adds_what_was_offered
 from thermodata.report.collected.collect import collect
 from thermodata.report.collected.history import history_rows
 from thermodata.report.page.error_rows import error_rows
 from thermodata.report.page.headline import sentences
-from thermodata.report.text.fit import before_after_text, history_text
+from thermodata.report.text.added import before_after_text
+from thermodata.report.text.fit import history_text
 from thermodata.report.words.numbers import pooled
 from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
@@ -117,7 +119,7 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
     assert find_model(store, "short").model == grown.model
     # the truth is single lags, and the store keeps what was said
     assert grown.added == ["feed_screw"]
-    assert grown.notes == ["no second lag: none takes 20 % off the error on left-out tests"]
+    assert grown.notes[:1] == ["no second lag: none takes 20 % off the error on left-out tests"]
     assert find_model(store, grown.model).result == grown
     assert (parent.added, parent.notes) == (None, [])
 
@@ -167,7 +169,7 @@ def test_versions_are_compared_over_the_tests_that_both_predict(
     text = before_after_text(grown)
     assert text.splitlines()[0].startswith(f"{said}; before and after are over the {n - 1} that both predict")
     left_out = "made without t9: the clock of nc is off in it"
-    noted = before_after_text(grown.model_copy(update={"notes": ["read in steps", left_out]}))
+    noted = before_after_text(grown.model_copy(update={"notes": ["read in steps", left_out, *grown.notes]}))
     assert noted.splitlines()[:2] == [left_out, ""]
     assert noted.endswith(text)
     names = [t.test for t in world.tests if t.role == "calibration" and t.test != lost]
@@ -204,8 +206,9 @@ def test_what_is_removed_is_a_version_of_its_own_whatever_was_fitted_before(stor
     assert [m.model for m in model_chain(store, other.model)] == [base.model, other.model]
     # what is fitted, added or removed again is the same version, and its name leads past it
     said = f"this model was fitted before: {one.model} is its name, 'paths' is the newer version {removed.model}"
-    assert add(store, base.model, "feed_screw:T_nut", plain=True).notes == [said]
-    assert not find_model(store, one.model).result.notes
+    assert add(store, base.model, "feed_screw:T_nut", plain=True).notes[1:] == [said]
+    (alike,) = find_model(store, one.model).result.notes
+    assert alike.startswith(SAME_TESTS)
 
 
 def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spec: Spec) -> None:
@@ -215,7 +218,33 @@ def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spe
     assert grown.added == ["feed_screw", *(note.split()[0] for note in grown.notes if "is a second lag of" in note)]
     assert set(grown.added) == {k.split(".")[0] for k in grown.parameters} - {"lag"}
     plain = add(store, parent.model, "feed_screw:T_nut", plain=True)
-    assert (plain.added, plain.notes) == (["feed_screw"], [])
+    assert plain.added == ["feed_screw"]
+    assert not [note for note in plain.notes if "second lag" in note]
+
+
+def test_what_fitting_more_tests_does_is_told_apart_from_what_is_added(store: Store, spec: Spec) -> None:
+    parent = run.fit(store, spec("spindle_bearing", name="alike"))
+    grown = add(store, parent.model, "ambient_frame:T_hall", plain=True)
+    further = add(store, grown.model, "feed_screw:T_nut", plain=True)
+    # the same effects with the tests and roles of the version that has one more
+    stored = find_model(store, grown.model).spec
+    refit = run.fit(store, stored.model_copy(update={"effects": parent_effects(store, parent.model), "name": "refit"}))
+    whole, was = (pooled(r.scores, responses=["dZ"]) for r in (refit, parent))
+    there, was_there = (pooled(r.scores, "verification", responses=["dZ"]) for r in (refit, parent))
+    said = (
+        f"{SAME_TESTS} leaves {whole:.3g} um over its open tests instead of {was:.3g}, and {there:.3g} um in "
+        f"verification instead of {was_there:.3g}: that much comes of fitting them, only the rest of what is added"
+    )
+    assert grown.notes == [said]
+    assert said in " ".join(before_after_text(grown).split())
+    assert not further.notes, "the version before was fitted to all of them"
+    # kept with the version, for the pages
+    versions = collect(store, further.model).versions
+    assert [v.refitted for v in versions] == ["", said, ""]
+
+
+def parent_effects(store: Store, model: str) -> list[EffectSpec]:
+    return find_model(store, model).spec.effects
 
 
 def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:

@@ -13,6 +13,7 @@ from thermodata.modelling.run import fit_once, load
 from thermodata.modelling.versions.as_foretold import beside_foretold
 from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
+from thermodata.modelling.versions.refitted_parent import on_the_same_tests
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.modelling.versions.slips import lines_of_test, with_lines
@@ -63,7 +64,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
         said = beside_foretold(of_one, grown.names, refined.lags)
         spec, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
     added, of_response = _added(parent.spec, spec, old.data.channels)
-    notes = [*notes, *since, *of_response, *_twins(found, grown.names)]
+    alike = on_the_same_tests(parent.spec, spec, old.data, before)
+    notes = [*notes, *since, *of_response, *_twins(found, grown.names), *alike]
     result = fit_once(store, spec, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
     all_taken = bool(claims) and {c.id for c in claims} <= set(grown.names)

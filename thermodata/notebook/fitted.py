@@ -18,7 +18,8 @@ from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.stale import heed, heed_no_band
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.collected.lost import lost_sentence
-from thermodata.report.text.fit import before_after_text, fit_text, span
+from thermodata.report.text.added import before_after_text
+from thermodata.report.text.fit import fit_text, span
 from thermodata.report.words.numbers import change, in_units
 
 if TYPE_CHECKING:

@@ -9,11 +9,9 @@ import click
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, in_units_of
 from thermodata.cli.terminal.stored_model import resolve, with_stale
-from thermodata.report.text.fit import (
-    before_after_text,
-    fit_text,
-    made_worse,
-)
+from thermodata.modelling.versions.same_tests import note_on_the_same_tests
+from thermodata.report.text.added import before_after_text, made_worse
+from thermodata.report.text.fit import fit_text
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult
@@ -76,8 +74,10 @@ def _answer_version(session: Session, result: FitResult, parent: str) -> None:
         return in_units_of(session, result.response, f"{before_after_text(result)}\n\n{fit_text(result, scores=False)}")
 
     session.answer(with_stale(session.store(), parent, result), text)
+    told = "" if session.as_json else note_on_the_same_tests(result.notes)
     for note in result.notes:
-        session.say(note)
+        if note != told:
+            session.say(note)
 
 
 @command("remove")

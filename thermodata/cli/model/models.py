@@ -10,6 +10,7 @@ from thermodata.cli.look.look import campaign_option
 from thermodata.cli.terminal.common import Session, command
 from thermodata.errors import unknown_name
 from thermodata.report.text.table import table
+from thermodata.report.words.numbers import number
 
 if TYPE_CHECKING:
     from thermodata.view.lists.models import ModelRow
@@ -50,6 +51,7 @@ def _text(rows: list[dict[str, Any]]) -> str:
             "effects": _effects(row, known.get(row["parent"])),
             "campaigns": ", ".join(row["campaigns"]),
             "responses": ", ".join(row["responses"]),
+            "verification_um": _verification(row),
             "made": f"{row['created_at']:%Y-%m-%d %H:%M}",
             "stale": "yes" if row["stale"] else "",
             "fitted": "last" if row["fitted_last"] else "",
@@ -61,6 +63,10 @@ def _text(rows: list[dict[str, Any]]) -> str:
     tail = ("unit", "verdict", "made", "tests", "stale", "fitted")
     columns = [(key, named.get(key, key)) for key in (*heads, *tail)]
     return table(shown, columns, widest=MOST_LETTERS)
+
+
+def _verification(row: dict[str, Any]) -> str:
+    return number(row["verification_um"]) + (" (in-sample)" if row["in_sample"] else "")
 
 
 def _effects(row: dict[str, Any], parent: dict[str, Any] | None) -> str:

@@ -78,7 +78,8 @@ class Version:
     the unit of the first, which is `unit`, and over the tests that all versions predict; own: over all that this one
     does. removed: the effect that its parent has more. in_sample: whether its verification tests were fitted too.
     responses: the errors of each. lost: tests, as campaign/test, that the version before predicts for a response of
-    both, and this one does not. tests: how many it predicts; compared: how many all versions do."""
+    both, and this one does not. tests: how many it predicts; compared: how many all versions do. refitted: what is told
+    of the version before where it was not fitted to verification tests that this one is fitted to; else ''."""
 
     model: str
     name: str
@@ -95,6 +96,7 @@ class Version:
     lost: tuple[str, ...] = ()
     tests: int = 0
     compared: int = 0
+    refitted: str = ""
 
     @property
     def change(self) -> str:

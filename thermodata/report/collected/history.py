@@ -7,8 +7,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
+from thermodata.modelling.versions.same_tests import UNSEEN, note_on_the_same_tests
 from thermodata.report.collected.data import Errors, ResponseError, Version
-from thermodata.report.words.numbers import base_role, change, pooled
+from thermodata.report.words.numbers import change, in_sample, pooled
 from thermodata.schema.answers.result import Score
 from thermodata.schema.files.model import EffectSpec
 from thermodata.view.lists.response_units import response_units, told_together
@@ -61,7 +62,7 @@ def versions(
                 shown.verification_um,
                 m.stale,
                 ", ".join(gone) or None,
-                any(s.role != base_role(s.role) for s in every[i]),
+                bool(in_sample(every[i])),
                 units.get(names[0], "um"),
                 tuple(
                     ResponseError(n, units.get(n, "um"), _errors(every[i], [n]), _errors(common[i], [n])) for n in names
@@ -70,11 +71,18 @@ def versions(
                 tuple(dict.fromkeys(f"{t.campaign}/{t.test}" for t in lost if t.response in names)),
                 len({key[:2] for key in predicted(every[i])}),
                 compared,
+                _refitted(m.result.notes, every[i - 1], every[i]) if i else "",
             )
         )
         words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
         known = {name: _parted_by(spec) for name, spec in zip(ids, m.spec.effects, strict=True)}
     return tuple(made)
+
+
+def _refitted(notes: Sequence[str], before: Sequence[Score], after: Sequence[Score]) -> str:
+    """See `Version.refitted`. notes: of the version."""
+    unseen = in_sample(after) - in_sample(before)
+    return (note_on_the_same_tests(notes) or UNSEEN) if unseen else ""
 
 
 def how_it_went(errors: Sequence[float]) -> str:

@@ -140,7 +140,8 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     some = {f"{s.campaign}/{s.test}" for s in scores if base_role(s.role) == role} - in_sample
     own = f"{listed([n.partition('/')[2] for n in sorted(in_sample)])} " if some else ""
     level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, scores, role)) else ""
-    note = "; ".join(filter(None, [tests, f"{own}fitted too by now: {why}" if in_sample else "", level]))
+    fitted = f"{own}fitted too by now: {why}" if in_sample else ""
+    note = "; ".join(filter(None, [tests, fitted, data.versions[-1].refitted if data.versions else "", level]))
     return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
 
 

@@ -116,6 +116,7 @@ def _summary(data: ReportData) -> dict[str, Any]:
         "head": headline_error(errors),
         "left": what_is_left(data),
         "waterfall": waterfall(data.versions),
+        "refits": [(v.model[:6], typeset(v.refitted)) for v in data.versions if v.refitted],
         "lost": typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),
         "told_together": some_of(data.told_together, data.responses),
         "locked_note": locked_note(data),

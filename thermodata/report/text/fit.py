@@ -1,17 +1,13 @@
-"""A fit, a comparison and what an effect did, as text for a person: in the terminal and in a notebook."""
+"""A fit and a comparison as text for a person: in the terminal and in a notebook."""
 
 from __future__ import annotations
 
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from thermodata.modelling.compare.common import on_common
-from thermodata.modelling.versions.made_without import MADE_WITHOUT
-from thermodata.report.collected.lost import lost_of_chain, lost_sentence, results_gone_of_chain
+from thermodata.report.collected.lost import lost_of_chain, results_gone_of_chain
 from thermodata.report.text.table import prose, table
-from thermodata.report.words.glossary import IN_SAMPLE, LEVEL, explained
-from thermodata.report.words.numbers import base_role, change, duration, number, pooled, tests_of_role
-from thermodata.schema.words.sentences import listed
+from thermodata.report.words.glossary import IN_SAMPLE, LEVEL, SEEN_SINCE, explained
+from thermodata.report.words.numbers import base_role, duration, in_sample, number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,7 +19,6 @@ if TYPE_CHECKING:
     from thermodata.view.curves.contributions import Contributions, Peak
 
 _WHOLE = 400  # characters of a state: what the machine did is not cut within a number
-_RISES = 1.005  # an error that rises by less is the same
 
 
 def fit_text(result: FitResult, *, scores: bool = True) -> str:
@@ -144,7 +139,7 @@ def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     """The versions of a model, as rows of `history_rows`."""
     lost = history_lost(chain)
     head = f"{lost}\n\n" if lost else ""
-    told = f"\n{prose(f'in-sample: {IN_SAMPLE}')}" if any(row["in_sample"] for row in chain) else ""
+    told = f"\n{prose(f'in-sample: {IN_SAMPLE}; {SEEN_SINCE}')}" if any(row["in_sample"] for row in chain) else ""
     return head + leveled(table(*history_table(chain))) + told
 
 
@@ -173,12 +168,20 @@ def differences_text(found: Sequence[TestDifference], results: Sequence[FitResul
     """Each model's error less that of the first; what is sure has a mark."""
     names = {r.model: f"{r.name} {r.model[:6]}" for r in results}
     many = len({d.response for d in found}) > 1
+    seen = {r.model: in_sample(r.scores) for r in results}
+
+    def alike(d: TestDifference) -> bool:
+        """Whether both models are fitted to the test, or neither: else a difference says nothing of the effects."""
+        return ((d.campaign, d.test) in seen[d.model]) == ((d.campaign, d.test) in seen[d.against])
+
     rows = [
         {
             **d.to_json(),
             "model": names[d.model],
             "range": "too short to say" if d.low is None else f"{number(d.low)} … {number(d.high)}",
-            "sure": "yes" if d.low is not None and d.high is not None and (d.low > 0 or d.high < 0) else "",
+            "sure": ("yes" if alike(d) else "one was fitted to it")
+            if d.low is not None and d.high is not None and (d.low > 0 or d.high < 0)
+            else "",
         }
         for d in found
     ]
@@ -219,78 +222,4 @@ def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
         rows,
         [("campaign", "campaign"), ("test", "test"), ("span", "when"), ("rmse_um", "RMSE [um]"), ("state", "state")],
         widest=_WHOLE,
-    )
-
-
-def before_after_text(result: FitResult) -> str:
-    """What an added effect did, a row a test; roles pooled below over the tests that both versions predict. First which
-    tests it is made without, which may be sound."""
-    common = on_common([result.before or [], result.scores])
-    before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
-    rows: list[dict[str, Any]] = []
-    for s in result.scores:
-        old = before.get((s.campaign, s.test, s.response, s.phase))
-        if s.phase == "all" and old:
-            rows.append({**s.model_dump(), "before": old.rmse_um, "change": change(old.rmse_um, s.rmse_um)})
-    names = list(dict.fromkeys(s.response for s in result.scores))
-    for role in dict.fromkeys(base_role(row["role"]) for row in rows):
-        for name in names:  # responses may be in several units
-            was, now = (pooled(some, role, responses=[name]) for some in common)
-            pool = {"before": was, "rmse_um": now, "change": change(was, now)}
-            rows.append({"test": "all", "role": role, "response": name, **pool})
-    columns = [
-        ("campaign", "campaign"),
-        ("test", "test"),
-        ("role", "role"),
-        *([("response", "response")] if len(names) > 1 else []),
-        ("before", "before [um]"),
-        ("rmse_um", "after [um]"),
-        ("change", "change"),
-    ]
-    lost = lost_sentence(result.before or [], result.scores, result.checks)
-    left_out = [note for note in result.notes if note.startswith(MADE_WITHOUT)]
-    head = "".join(f"{said}\n\n" for said in (*left_out, worse_on_locked(result), lost) if said)
-    too = {s.test for s in result.scores if s.role != base_role(s.role)}
-    fitted = tests_of_role(common[1], "calibration")
-    told = f"all of calibration: {fitted}; fitted too by now, under verification: {listed(sorted(too))}" if too else ""
-    were = {s.test for s in result.before or [] if s.role != base_role(s.role)} - too
-    once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
-    return "\n".join(
-        filter(
-            None, [f"{head}{leveled(table(rows, columns))}\n{prose(explained('verification', 'fitted'))}", told, once]
-        )
-    )
-
-
-def worse_on_locked(result: FitResult) -> str:
-    """That the locked tests get worse with what the diagnosis claims, though open ones get better; else ''."""
-    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
-    own = before if result.locked_rmse_um_fitted is None else result.locked_rmse_um_fitted
-    if before is None or own is None or after is None or after <= own * _RISES:
-        return ""
-    # of several responses nothing here says which it is of, and in which unit
-    figures = f"{number(own)} -> {number(after)} um, " if len(result.responses) == 1 else ""
-    return (
-        "as they are scored, from their first samples on, the locked tests get worse with what the diagnosis claims: "
-        f"{figures}{number(after / own, 2)} times as much, as its answer says, which judges by their shape (each "
-        "about its own mean). The errors below are of tests that it was fitted to or chosen by, "
-        "so ask the locked ones (thermodata confirm tells each) before this version is used"
-    )
-
-
-def made_worse(result: FitResult, units: Mapping[str, str]) -> str | None:
-    """A warning where an added effect raised the error of a role, response by response; None where it did not. units:
-    of the responses' errors."""
-    found = []
-    common = on_common([result.before or [], result.scores])
-    for role, name in product(("verification", "calibration"), result.responses):
-        before, after = (pooled(some, role, responses=[name]) for some in common)
-        if before is not None and after is not None and after > before * _RISES:
-            whose = f"{name} " if len(result.responses) > 1 else ""
-            found.append(f"{whose}{role} {before:.3g} -> {after:.3g} {units.get(name, 'um')}")
-    if not found:
-        return None
-    return (
-        f"warning: the model is worse with it: {', '.join(found)}; thermodata diagnose says whether the effect is "
-        "claimed, and the version before is still there"
     )

@@ -19,6 +19,7 @@ ERRORS = {
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 
 IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too, or hold samples of a fitted test"
+SEEN_SINCE = "beside a version that was not fitted to them, part of the change is that they are fitted now"
 PARTS = f"parts of the open tests in turn, {_FROM_THE_OTHERS}"
 
 _FIRST = "from its first samples (zero, 10 min unless the campaign says otherwise)"

@@ -126,6 +126,11 @@ def base_role(role: str) -> str:
     return role.partition(" ")[0]
 
 
+def in_sample(scores: Iterable[Score]) -> set[tuple[str, str]]:
+    """(campaign, test) of those that were fitted though they are no calibration tests."""
+    return {(s.campaign, s.test) for s in scores if s.role != base_role(s.role)}
+
+
 def pooled(scores: Iterable[Score], *roles: str, responses: Collection[str]) -> float | None:
     """Root mean square over whole tests of these roles (none named: all), each sample counted once. responses: in one
     unit, which it is in."""

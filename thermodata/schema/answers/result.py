@@ -110,7 +110,8 @@ class FitResult(Result):
     before: of add: the parent's scores
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
     notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
-        without a value; of add: which second lags were taken in and why
+        without a value; of add: which second lags were taken in and why, and what the version before leaves, fitted to
+        the same tests
     locked_rmse_um_before: of add: the error on the locked tests without what the parent's diagnosis claims, where all
         of that is added; null where it is not, or none was asked
     locked_rmse_um_after: the same with all that it claims

@@ -26,7 +26,7 @@ class ModelRow:
     first. verdict: of its diagnosis, None where it has none. label: its name and version, after its campaign where
     models of several campaigns have the name, and with its id where another model has these too. fitted: the last fit
     has the largest, of a version that is new or of an older one again.
-    tests: how many it was fitted to."""
+    tests: how many it was fitted to. in_sample: whether verification tests are among them."""
 
     model: str
     name: str
@@ -45,6 +45,7 @@ class ModelRow:
     label: str
     fitted: int
     tests: int
+    in_sample: bool = False
 
 
 _MODELS = """
@@ -58,12 +59,13 @@ e as (select h.model, max(h.version) as version,
              max(h.rmse_um_verification) filter (u.unit is not distinct from f.unit) as verification
       from history h join first f on f.model = h.model
       left join u on u.model = h.model and u.response = h.response group by h.model),
-n as (select model, count(distinct (campaign, test)) as tests from score_row
-      where role in ('calibration', 'verification (in-sample)') group by model),
+n as (select model, count(distinct (campaign, test)) as tests, bool_or(role <> 'calibration') as in_sample
+      from score_row where role in ('calibration', 'verification (in-sample)') group by model),
 d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model)
 select m.model, m.name, coalesce(e.version, 1) as version, m.parent, m.created_at, m.stale, m.campaigns, m.response,
        m.rowid as fitted, -- a fit writes its row anew
-       coalesce(n.tests, 0) as tests, coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
+       coalesce(n.tests, 0) as tests, coalesce(n.in_sample, false) as in_sample,
+       coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
 from model m left join n on n.model = m.model
 left join e on e.model = m.model left join d on d.model = m.model left join first u on u.model = m.model
 order by m.created_at desc, m.rowid desc"""
@@ -124,6 +126,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], label: str) -> ModelR
         label,
         int(r["fitted"]),
         int(r["tests"]),
+        bool(r["in_sample"]),
     )
 
 

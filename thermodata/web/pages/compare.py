@@ -37,9 +37,10 @@ from thermodata.web.pages.parts.compare_lines import (
     of_responses,
     over_roles,
     roles,
+    unseen,
     with_differences,
 )
-from thermodata.web.pages.parts.compare_versions import how_it_fell
+from thermodata.web.pages.parts.compare_versions import how_it_fell, refitted
 from thermodata.web.pages.parts.contributions import contribution_chart
 from thermodata.web.pages.parts.drawn import pair
 from thermodata.web.render import desk_of, page
@@ -156,6 +157,7 @@ def _headline(of: _Compared) -> dict[str, Any]:
         "stale": of.stale,
         "told_of": some_of(of.together, of.pinned.responses),
         "roles": roles(on_common(scores), of.together),
+        "refitted": refitted(of.store, of.pinned, of.newest, scores[0], scores[-1]),
         "compared": lost_of_compared({m.label: own for m, own in zip(of.chosen, scores, strict=True)}),
     }
 
@@ -206,6 +208,7 @@ def _test_by_test(of: _Compared) -> dict[str, Any]:
         "several_campaigns": len(of.campaigns) > 1,
         "most": largest(of.lines, of.units),
         "over_roles": over_roles(of.lines, [of_responses(each, of.together) for each in of.courses]),
+        "unseen": unseen(of.lines),
         "in_sample": IN_SAMPLE if any(any(line.in_sample) for line in of.lines) else None,
     }
 

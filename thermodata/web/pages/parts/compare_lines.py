@@ -107,3 +107,13 @@ def roles(scores: list[list[Score]], responses: Sequence[str]) -> list[tuple[str
         )
         for role in names
     ]
+
+
+def unseen(lines: Sequence[Line]) -> dict[str, set[int]]:
+    """role -> the places of models that were fitted to other tests of it than the pinned one."""
+    found: dict[str, set[int]] = {}
+    for line in lines:
+        places = {i for i, fitted in enumerate(line.in_sample) if fitted != line.in_sample[0]}
+        if places:
+            found.setdefault(line.role, set()).update(places)
+    return found

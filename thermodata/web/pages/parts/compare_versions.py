@@ -6,13 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from thermodata.modelling.versions.same_tests import THE_ONE_BEFORE, UNSEEN, note_on_the_same_tests
 from thermodata.report.collected.data import Version
 from thermodata.report.collected.history import chain_units, how_it_went, versions
 from thermodata.report.collected.lost import lost_of_versions
 from thermodata.report.page.headline import capital
+from thermodata.report.words.numbers import in_sample
 from thermodata.report.words.of_response import some_of
+from thermodata.schema.answers.result import Score
 from thermodata.store import Store
-from thermodata.store.catalogue.models.fits import model_chain
+from thermodata.store.catalogue.models.fits import find_model, model_chain
 from thermodata.view.lists.models import ModelRow, fitted_last
 from thermodata.view.lists.response_units import response_units, told_together
 from thermodata.web.command import command
@@ -29,6 +32,7 @@ def how_it_fell(store: Store, models: Sequence[ModelRow], newest: ModelRow, stor
         "waterfall": waterfall,
         "went": how_it_went([error for _, error, _ in waterfall]),
         "told_of_chain": some_of(of_chain, newest.responses),
+        "refits": [(f"{v.name} {i}", v.refitted) for i, v in enumerate(chain, 1) if v.refitted],
         "lost": capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         "undo": undo,
         "taken": fitted_last(models),
@@ -40,3 +44,12 @@ def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float |
     """(version, its error, the error before it)."""
     known = [v for v in chain if v.all_um is not None]
     return [(v, v.all_um or 0.0, known[i - 1].all_um if i else None) for i, v in enumerate(known)]
+
+
+def refitted(store: Store, pinned: ModelRow, newest: ModelRow, before: Sequence[Score], after: Sequence[Score]) -> str:
+    """What is told of the pinned one where it was not fitted to verification tests that the newest is fitted to; else
+    ''. before, after: their scores."""
+    if not in_sample(after) - in_sample(before):
+        return ""
+    told = note_on_the_same_tests(find_model(store, newest.model).result.notes)
+    return told if told and newest.parent == pinned.model else UNSEEN.replace(THE_ONE_BEFORE, pinned.label)
