@@ -202,7 +202,7 @@ def test_a_response_that_gets_worse_is_said_in_its_own_unit_beside_one_that_gets
         before=[score("verification", e).model_copy(update={"response": n}) for n, e in before.items()],
     )  # fmt: skip
     said = str(made_worse(result, {"dZ": "um", "T_nut": "K"}))
-    assert "worse with it: T_nut verification 0.2 -> 0.4 K;" in said
+    assert "an error rises with it: T_nut verification 0.2 -> 0.4 K;" in said
     assert "dZ" not in said
 
 

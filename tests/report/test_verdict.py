@@ -11,8 +11,8 @@ import pytest
 from thermodata.diagnosis.claims.probability import CLAIMED, PLACELESS_CLAIMED
 from thermodata.report.collected.collect import _reason
 from thermodata.report.collected.data import ReportData
-from thermodata.report.page.error_rows import error_rows
-from thermodata.report.page.headline import headline, sentences
+from thermodata.report.page.error_rows import error_rows, headline_error
+from thermodata.report.page.headline import error_sentence, headline, sentences
 from thermodata.report.page.page import render
 from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.verdict.candidate_errors import beside
@@ -706,6 +706,10 @@ def test_the_page_has_the_model_as_it_is_fitted_before_what_is_claimed(data: Rep
     (row,) = (r for r in error_rows(added) if r.word == "locked")
     assert (row.before, row.after) == (7.0, 2.0)
     assert "before: 5 um refitted to all open tests" in row.notes
+    # what the refit takes away is no merit of the effect
+    said = "The error on locked tests falls: 7.00 (5.00 refitted to all open tests) -> 2.00 um (-60 % from the refitted"
+    assert error_sentence(added).startswith(said)
+    assert "\N{MINUS SIGN}60\N{NO-BREAK SPACE}%" in render(added)
     (row,) = (r for r in error_rows(dataclasses.replace(data, diagnosis=asked, reason=None)) if r.word == "locked")
     assert (row.before, row.after) == (None, 7.0)
     assert "5 um refitted to all open tests; 2 um with what is claimed" in row.notes
@@ -718,6 +722,18 @@ def test_errors_of_claims_on_other_data_or_of_another_fit_are_none_of_the_versio
     other = dataclasses.replace(own, reason_of_fit=False)
     assert {r.word for r in error_rows(other)} == {"verification", "fitted"}
     assert headline(other).startswith("Missing in dZ was screw")
+    # with a second lag beside the claim its errors were foretold of nearly this model, and are told as such
+    lagged = dataclasses.replace(other, reason_but_for=("screw_lag2",))
+    rows = {r.word: r for r in error_rows(lagged)}
+    assert list(rows) == ["locked", "left-out", "verification", "fitted"]
+    assert [word for word, r in rows.items() if r.foretold] == ["locked", "left-out"]
+    head = headline_error(list(rows.values()))
+    assert head is not None
+    assert head.word == "verification", "none of those that are of another model"
+    assert any(
+        line.startswith("Foretold for one lag of each effect: this version has screw_lag2 too; the error on locked")
+        for line in sentences(lagged)
+    )
 
 
 def test_the_reason_of_a_version_stands_as_far_back_as_its_answer_has_claims() -> None:

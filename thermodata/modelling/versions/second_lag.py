@@ -191,6 +191,14 @@ def is_lag_of(identity: str, of: str) -> bool:
     return identity.startswith(f"{of}_lag") and identity.removeprefix(f"{of}_lag").isdigit()
 
 
+def without_second_lags(spec: Model) -> tuple[Model, list[str]]:
+    """(the model with one lag of each effect, the ids of the others)."""
+    ids = term_ids(spec.effects)
+    second = [i for i in ids if any(is_lag_of(i, of) for of in ids)]
+    kept = [e for i, e in zip(ids, spec.effects, strict=True) if i not in second]
+    return spec.model_copy(update={"effects": kept}), second
+
+
 def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
     """Whether an effect is one lag that a second could stand beside: not where the file holds its values or identifies
     it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""

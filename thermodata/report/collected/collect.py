@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, slots=True)
 class _Reason:
     """Why the last effect was added. said: the answer of an ancestor, None where none says so; shown: the same where
-    the page shows it; of_fit, offered: see `ReportData`."""
+    the page shows it; of_fit, but_for, offered: see `ReportData`."""
 
     said: Diagnosis | None = None
     shown: Diagnosis | None = None
     of_fit: bool = False
+    but_for: tuple[str, ...] = ()
     offered: bool = False
 
 
@@ -80,6 +81,7 @@ def collect(store: Store, ref: str) -> ReportData:
         diagnosis=diagnosis,
         reason=reason.shown,
         reason_of_fit=reason.of_fit,
+        reason_but_for=reason.but_for,
         offered=reason.offered,
         weak=weak_spots_of(loaded, (reason.said, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
@@ -93,6 +95,7 @@ def collect(store: Store, ref: str) -> ReportData:
 
 def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, removed_only: bool) -> _Reason:
     """removed_only: the last version takes effects out, which no answer is a reason for."""
+    from thermodata.modelling.versions.second_lag import without_second_lags
     from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
     from thermodata.store.catalogue.models.findings import load_diagnosis
 
@@ -102,10 +105,14 @@ def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, re
     if asked is None or said is None:
         return _Reason()
     spec, before = chain[-1].spec, chain[asked].spec
+    single, second = without_second_lags(spec)
+    of_fit = is_fit_with_claims(spec, loaded.data, before, said)
+    foretold = not of_fit and is_fit_with_claims(single, loaded.data, before, said)
     return _Reason(
         said,
         None if removed_only else said,
-        is_fit_with_claims(spec, loaded.data, before, said),
+        of_fit,
+        tuple(second) if foretold else (),
         not removed_only and adds_what_was_offered(spec, loaded.data, before, said),
     )
 

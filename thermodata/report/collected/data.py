@@ -110,6 +110,7 @@ class ReportData:
 
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
     reason_of_fit: whether its claims were confirmed in this very fit: on these data and tests, with no other effect.
+    reason_but_for: second lags that came along with its claims, where this fit is theirs but for these.
     offered: whether all that was added since are refinements that it offered.
     units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
     test was opened, for whichever model. calibrations: rows of the catalogue's table.
@@ -144,6 +145,7 @@ class ReportData:
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     reason_of_fit: bool = True
+    reason_but_for: tuple[str, ...] = ()
     offered: bool = False
 
     def unit_of(self, found: Diagnosis | str | None) -> str:

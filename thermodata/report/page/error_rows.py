@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.modelling.compare.common import on_common
 from thermodata.report.collected.data import ReportData
-from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.candidate_errors import beside, left_out_tests
 from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.verdict import claims_of
 from thermodata.report.words.glossary import ERRORS, PARTS
@@ -27,7 +27,8 @@ class ErrorRow:
     """One error of a model. word: of the glossary. before: without the last effect, None where there is none.
     tested: whether the fit and the choice of effects have not seen these tests. unit: of the error. of: which of a
     model's several responses it is of, '' where it has one. parts: that parts of tests were left out, and why; '' where
-    tests were."""
+    tests were. refitted: before, fitted to the same tests as after; None where that says nothing else. foretold: of
+    which other model a diagnosis foretold it; '' of an error of this one. left_out: what a left-out error is on."""
 
     word: str
     before: float | None
@@ -37,10 +38,18 @@ class ErrorRow:
     unit: str = "um"
     of: str = ""
     parts: str = ""
+    refitted: float | None = None
+    foretold: str = ""
+    left_out: str = "left-out tests"
 
     @property
     def notes(self) -> str:
-        return "; ".join(filter(None, [self.note, f"of {self.of}" if self.of else ""]))
+        return "; ".join(filter(None, [self.foretold, self.note, f"of {self.of}" if self.of else ""]))
+
+    @property
+    def compared(self) -> float | None:
+        """What the error after is compared with: a fit to more tests is no merit of what was added."""
+        return self.before if self.refitted is None else self.refitted
 
     @property
     def meaning(self) -> str:
@@ -55,7 +64,8 @@ def error_rows(data: ReportData) -> list[ErrorRow]:
 
 def headline_error(rows: Sequence[ErrorRow]) -> ErrorRow | None:
     """The one that tells most of how the model foretells."""
-    return next((r for r in rows if r.tested), rows[-1] if rows else None)
+    own = [r for r in rows if not r.foretold]
+    return next((r for r in own if r.tested), own[0] if own else None)
 
 
 def added_claims(data: ReportData) -> list[Candidate]:
@@ -68,7 +78,15 @@ def _all_added(data: ReportData) -> list[Candidate]:
     """The claims of one answer, once the model has them all, for they were judged beside each other; empty where their
     errors are of another fit."""
     claims = added_claims(data)
-    return claims if data.reason and data.reason_of_fit and len(claims) == len(claims_of(data.reason)) else []
+    its = data.reason_of_fit or data.reason_but_for
+    return claims if data.reason and its and len(claims) == len(claims_of(data.reason)) else []
+
+
+def _foretold(data: ReportData) -> str:
+    """'foretold for one lag of each effect: this version has bed_lag2 too'; '' where it is the very fit."""
+    if data.reason_of_fit:
+        return ""
+    return f"foretold for one lag of each effect: this version has {listed(data.reason_but_for)} too"
 
 
 def _locked_row(data: ReportData) -> ErrorRow | None:
@@ -83,7 +101,9 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
             own = before if c.locked_rmse_um_fitted is None else c.locked_rmse_um_fitted
             refitted = "" if own == before else f"{before:.3g} {of.unit} refitted to all open tests"
             if claims:
-                return ErrorRow("locked", own, after, True, refitted and f"before: {refitted}", of.unit, of.response)
+                told, other = refitted and f"before: {refitted}", before if refitted else None
+                lags = _foretold(data)
+                return ErrorRow("locked", own, after, not lags, told, of.unit, of.response, "", other, lags)
             note = "; ".join(filter(None, [refitted, f"{after:.3g} {of.unit} with what is claimed"]))
             return ErrorRow("locked", None, own, True, note, of.unit, of.response)
     before, after = _of_role(data, "locked")
@@ -91,18 +111,19 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
-    def row(found: Diagnosis, before: float | None, after: float) -> ErrorRow:
+    def row(found: Diagnosis, before: float | None, after: float, lags: str = "") -> ErrorRow:
         of = _of_response(data, found)
-        return ErrorRow("left-out", before, after, True, "", of.unit, of.response, in_parts(found))
+        of_this, told = not lags, left_out_tests(found.candidates)
+        return ErrorRow("left-out", before, after, of_this, "", of.unit, of.response, in_parts(found), None, lags, told)
 
     claims, reason = _all_added(data), data.reason
     left = reason.rmse_um if reason else None
     if claims and reason:
         if left is not None and reason.named_rmse_um is not None:
-            return row(reason, left, reason.named_rmse_um)
+            return row(reason, left, reason.named_rmse_um, _foretold(data))
         # errors beside other candidates are of no model that anybody has
         if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
-            return row(reason, claims[0].rmse_um_before, claims[0].rmse_um_after)
+            return row(reason, claims[0].rmse_um_before, claims[0].rmse_um_after, _foretold(data))
     if data.diagnosis and data.diagnosis.rmse_um is not None:
         return row(data.diagnosis, None, data.diagnosis.rmse_um)
     return None

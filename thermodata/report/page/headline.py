@@ -6,6 +6,7 @@ from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows, headline_error
 from thermodata.report.text.clauses import clauses
+from thermodata.report.verdict.candidate_errors import from_fitted
 from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words.numbers import change, in_unit, number
 from thermodata.report.words.of_response import of_response
@@ -48,13 +49,28 @@ def error_sentence(data: ReportData) -> str:
     what = f"The error{of} on {tests_of(row)}"
     if row.before is None:
         return f"{what} is {number(row.after)} {row.unit}"
-    verb = "falls" if row.after < row.before else "does not fall"
-    return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {row.unit} ({change(row.before, row.after)})"
+    verb = "falls" if row.after < (row.compared or row.before) else "does not fall"
+    changed = change(row.compared, row.after)
+    if row.refitted is None:
+        return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {row.unit} ({changed})"
+    figures = from_fitted(row.before, row.refitted, row.after).removesuffix(" um")
+    return f"{what} {verb}: {figures} {row.unit} ({changed} from the refitted one)"
+
+
+def _foretold(data: ReportData) -> str:
+    """The errors that a diagnosis foretold of what was added, where second lags came along."""
+    rows = [r for r in error_rows(data) if r.foretold and r.before is not None]
+    each = [f"on {tests_of(r)} {number(r.compared)} -> {number(r.after)} {r.unit}" for r in rows]
+    return f"{capital(rows[0].foretold)}; the error {listed(each)}" if rows else ""
 
 
 def tests_of(row: ErrorRow) -> str:
     """'locked tests', 'the tests that were fitted'."""
-    return "the tests that were fitted" if row.word == "fitted" else f"{row.word} tests"
+    if row.word == "fitted":
+        return "the tests that were fitted"
+    if row.word == "left-out":
+        return row.left_out
+    return f"{row.word} tests{'' if row.tested or row.foretold else ', which are fitted too by now,'}"
 
 
 def sentences(data: ReportData) -> list[str]:
@@ -63,7 +79,7 @@ def sentences(data: ReportData) -> list[str]:
     # the verdict that nothing is missing has that figure already
     said = row is not None and number(row.after) in headline(data)
     lines = [] if said else [error_sentence(data)]
-    lines += _levels(data)
+    lines += [*_levels(data), _foretold(data)]
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     told = claims if data.added else claims_of(data.diagnosis) if data.diagnosis else []

@@ -90,6 +90,6 @@ def made_worse(result: FitResult, units: Mapping[str, str]) -> str | None:
     if not found:
         return None
     return (
-        f"warning: the model is worse with it: {', '.join(found)}; thermodata diagnose says whether the effect is "
-        "claimed, and the version before is still there"
+        f"warning: an error rises with it: {', '.join(found)}; the version before is still there, and its diagnosis "
+        "says what speaks for the effect"
     )
