@@ -13,6 +13,7 @@ from thermodata.cli import main
 from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.report.words.numbers import typeset
+from thermodata.schema.answers.candidate import Rung
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
@@ -20,10 +21,11 @@ from thermodata.store.catalogue.models.findings import load_diagnosis, save_diag
 from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.catalogue.models.looks import count_locked_look
 from thermodata.store.catalogue.models.stale import fitted_again
-from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
+from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES, _stumbles
 from thermodata.web.pages.parts.drawn import among, pair
 from thermodata.web.render import begun, link
 
+from ..answers import candidate
 from .client import Client
 from .conftest import client_of
 
@@ -193,6 +195,46 @@ def test_an_error_that_rises_is_not_said_to_fall(lab: Path, after: float, said: 
     text = client_of(lab)[0].get("/missing").text
     assert said in text
     assert never not in text
+
+
+def test_errors_that_others_share_are_said_to_be_theirs_too(lab: Path) -> None:
+    """Where a candidate is judged beside one that nobody adds, its error is none that adding it gives."""
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    parts = [
+        p.model_copy(update={"test": one.left_out[0].test, "from_s": 60.0 * i}) for i, p in enumerate(one.left_out)
+    ]
+    claim = one.model_copy(
+        update={"beside": ["lag:T_x"], "left_out": parts, "rmse_um_before": 2.48, "rmse_um_after": 1.34}
+    )
+    rival = claim.model_copy(update={"id": "lag:T_y", "claimed": False, "rank": 2, "rungs": [], "rmse_um_after": 2.0})
+    own = {"rmse_um": 2.41, "named_rmse_um": 2.33}
+    save_diagnosis(store, model, found.model_copy(update={"candidates": [claim, rival], **own}))
+    client = client_of(lab, write=True)[0]
+    text = client.get("/missing").text
+    assert "Error on left-out parts of 1 test <b>2.48 → 1.34 µm</b> (both with lag:T_x, which adding this alone" in text
+    assert re.search(r'lag:T_y</td>.*<td class="muted">lag:T_x</td></tr>', text)
+    offer = client.get(link("/add", model=model, candidate=one.id)).text
+    assert "(both with lag:T_x, which adding this alone does not bring)" in offer
+    assert "With it added, on left-out parts of 1 test: <b>2.41 → 2.33 µm</b>" in offer
+
+
+@pytest.mark.parametrize(
+    ("value", "why", "said"),
+    [
+        (0.08, "alone it falls; it is judged beside others: where it acts", "the error hardly falls beside others"),
+        (-0.1, "alone it falls; it is judged beside others: where it acts", "the error rises beside others"),
+        (0.08, "where it acts", "the error hardly falls where it acts"),
+    ],
+)
+def test_a_rule_that_looks_at_other_errors_than_those_of_its_row_says_so(value: float, why: str, said: str) -> None:
+    rung = Rung(name="fall", asks="fall", value=value, unit="1", at="least", limit=0.15, holds=False)
+    row = candidate("lag:T", rmse_um_before=2.41, rmse_um_after=1.85, why=why, rungs=[rung])
+    assert _stumbles(row, rung) == said
+    unlikely = rung.model_copy(update={"name": "probability", "value": 0.36, "limit": 0.65})
+    assert _stumbles(row, unlikely) == "not likely enough (36 %)"
 
 
 def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) -> None:

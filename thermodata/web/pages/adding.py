@@ -10,6 +10,8 @@ from starlette.responses import Response
 from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.report.verdict.candidate_errors import beside, left_out_tests
+from thermodata.report.verdict.verdict import claims_of
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
@@ -58,9 +60,21 @@ def show(request: Request) -> Response:
         model=model,
         name=name,
         chosen=chosen,
+        left_out_of=left_out_tests([c.candidate for c in chosen if c.candidate]),
+        both_with={c.name: beside(c.candidate, found.rmse_um) for c in chosen if c.candidate and found},
+        whole=_whole(found, chosen),
         unit=unit_of(store, found.response if found else model.result.responses[0], model.spec.campaign_ids),
         pair=pair,
     )
+
+
+def _whole(found: Diagnosis | None, chosen: list[Chosen]) -> tuple[float, float] | None:
+    """Errors on left-out tests of the model, and with what is chosen; None where the stored answer has none of these:
+    it has them of all claims together."""
+    if found is None or found.rmse_um is None or found.named_rmse_um is None:
+        return None
+    claims = {c.id for c in claims_of(found)}
+    return (found.rmse_um, found.named_rmse_um) if {c.name for c in chosen} == claims else None
 
 
 def _chosen(store: Store, model: StoredModel, found: Diagnosis | None, named: str) -> Chosen:

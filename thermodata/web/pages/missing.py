@@ -15,10 +15,11 @@ from thermodata.report.charts.heat import heat_charts
 from thermodata.report.collected.older import is_of_other_data
 from thermodata.report.page.headline import capital
 from thermodata.report.text.clauses import clauses
+from thermodata.report.verdict.candidate_errors import beside, left_out_tests
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import against_adding
-from thermodata.report.verdict.verdict import causes, claims_of, explainable, told, verdict_sentence
+from thermodata.report.verdict.verdict import causes, claims_of, explainable, probability, told, verdict_sentence
 from thermodata.report.words.numbers import heat_lines, in_unit, number
 from thermodata.report.words.of_response import of_response, worst_of
 from thermodata.report.words.pieces import names_of_pieces
@@ -61,6 +62,7 @@ STUMBLES = {
     "difference": "one of its sensors says as much",
     "probability": "not likely enough",
 }
+JUDGED_BESIDE = "judged beside others"
 _LOOKS = 6  # that are told of one test
 _NOTHING = {
     "none": ("Nothing is missing", "What is left is noise, or what lags leave of any machine."),
@@ -98,6 +100,7 @@ def show(request: Request) -> Response:
         unbound=_unbound(store, model),
         rung_target=RUNG_TARGET,
         stumbles=_stumbles,
+        only_unlikely=_only_unlikely,
         among=among,
         pair=pair,
         add_command=lambda *some: command(desk.store_path, "add", model.model, *(c.id for c in some)),
@@ -135,6 +138,8 @@ def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
         "equivalents": {e for c in claims for e in c.equivalent},
         "rivals": [c for c in found.candidates if c not in shown],
         "added": added,
+        "left_out_of": {c.id: left_out_tests([c]) for c in found.candidates},
+        "both_with": {c.id: beside(c, found.rmse_um) for c in found.candidates},
         "against": {c.id: in_unit(against_adding(c), unit) for c in shown if c.refinement},
         "together": missing if len(missing) > 1 else [],
     }
@@ -161,11 +166,22 @@ def _answered_now(store: Store, models: list[ModelRow], stored: StoredModel, now
 
 
 def _stumbles(candidate: Candidate, rung: Rung) -> str:
-    """Over what, in as few words; the errors beside them are of all left-out tests."""
+    """Over what, in as few words; the errors beside them are of all left-out tests, and a rule may look at others."""
     before, after = candidate.rmse_um_before, candidate.rmse_um_after
-    if rung.name == "fall" and before is not None and after is not None and after > before:
-        return "the error rises"
+    if rung.name == "fall" and before is not None and after is not None:
+        if after > before:
+            return "the error rises"
+        if after < (1 - (rung.limit or 0.0)) * before:
+            falls = "rises" if (rung.value or 0.0) < 0 else "hardly falls"
+            return f"the error {falls} {'beside others' if JUDGED_BESIDE in candidate.why else 'where it acts'}"
+    if rung.name == "probability" and rung.value is not None:
+        return f"not likely enough ({probability(rung.value)})"
     return STUMBLES.get(rung.name, rung.name.replace("_", " "))
+
+
+def _only_unlikely(candidate: Candidate) -> bool:
+    """Whether it keeps all other rules: then its sentence says why it is not likely."""
+    return [r.name for r in candidate.rungs if not r.holds] == ["probability"]
 
 
 def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
