@@ -214,7 +214,7 @@ def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
 
 
 def causes(claims: Sequence[Candidate]) -> str:
-    """'screw (T_nut), probability 94 % (that it is one of these), not told from motor (T_mot)', the same
+    """'screw (T_nut), not told from motor (T_mot), probability 94 % (that it is one of these)', the same
     wherever a claim is told."""
     names = [_with_probability(c) for c in claims]
     # commas stand within a name and its probability
@@ -228,7 +228,7 @@ def _with_probability(one: Candidate) -> str:
     plain = f"probability {probability(one.probability or 0.0)}"
     told = plain if twins or one.claimed else _how_likely(one)
     sure = "" if one.probability is None else f"{told}{of}"
-    return ", ".join(filter(None, [_or_elsewhere(one), sure, twins]))
+    return ", ".join(filter(None, [_or_elsewhere(one), twins, sure]))
 
 
 def _or_elsewhere(one: Candidate) -> str:
@@ -261,7 +261,7 @@ def _unclaimed(found: Diagnosis) -> str:
         return f"{missing}nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     likeliest = f"the likeliest that was logged is {_or_elsewhere(first)}, {_how_likely(first)}"
-    none = f"{missing}the evidence{asked} suffices to name no cause; {likeliest}{stopped(first)}"
+    none = f"{missing}the evidence{asked} does not suffice to name a cause; {likeliest}{stopped(first)}"
     return "; ".join(filter(None, [none, asks_locked(first, found), better_with(found, first)]))
 
 
