@@ -17,8 +17,11 @@ from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.remove import remove
+from thermodata.modelling.run import fit
 from thermodata.modelling.seen.residual_tests import autocorrelation
+from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
+from thermodata.report.words.numbers import typeset
 from thermodata.store import Store
 from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
@@ -30,6 +33,7 @@ from thermodata.web.pages.parts.compare_charts import correlated
 from thermodata.web.work import Work
 
 from .client import Client
+from .conftest import client_of
 
 
 def finished(client: Client, text: str, seconds: float = 300.0) -> tuple[str, str | None]:
@@ -193,6 +197,18 @@ def test_the_comparison_shows_only_what_differs(reader: Client) -> None:
     text = reader.get("/compare").text
     assert "Residual over every test" in text
     assert "Nothing differs" in reader.get("/compare?differs=1").text  # one model differs from nothing
+
+
+def test_what_a_fit_says_of_itself_is_told_as_in_a_terminal(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    spec = find_model(store, "baseline").spec
+    tight = [e.model_copy(update={"bounds": {"tau": (1.0, 1.1)}}) for e in spec.effects]
+    made = fit(store, spec.model_copy(update={"name": "tight", "effects": tight}))
+    said = [check_text(c) for c in made.checks if not c.passed]
+    assert any(line.startswith("at_bound:") for line in said)
+    text = html.unescape(client_of(lab)[0].get(f"/compare?model={made.model}").text)
+    assert f"Worth a look: {len(said)} of tight 1" in text
+    assert all(f"<li>{typeset(line)}</li>" in text for line in said)
 
 
 def test_the_residual_over_a_channel(reader: Client) -> None:

@@ -16,6 +16,7 @@ from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.differences import Course
 from thermodata.plugin import Float1D
 from thermodata.report.collected.lost import lost_of_compared
+from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
@@ -69,6 +70,7 @@ def show(request: Request) -> Response:
         **_contributions(compared, desk.store_path, given.get("test", "")),
         **_test_by_test(compared),
         parameters=_parameters(compared.results),
+        failed=_failed(compared),
     )
 
 
@@ -267,6 +269,14 @@ def _chosen(store: Store, models: list[ModelRow], named: list[str], pin: str) ->
         found = [by_id[found[0].parent], found[0]]
     first = model_in(store, models, pin) if pin else None
     return [first, *(m for m in found if m is not first)] if first else found
+
+
+def _failed(of: _Compared) -> list[tuple[str, list[str]]]:
+    """(label, what its fit says of itself, as a terminal has it) of each model with a check that does not hold."""
+    told = [
+        (m.label, [check_text(c) for c in r.checks if not c.passed]) for m, r in zip(of.chosen, of.results, strict=True)
+    ]
+    return [(label, checks) for label, checks in told if checks]
 
 
 def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
