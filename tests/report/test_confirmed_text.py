@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.diagnosis.locked.held import despite
-from thermodata.report.text.diagnosis import confirmed_text
+from thermodata.report.text.confirmed import confirmed_text
 from thermodata.schema.answers import confirmed as results
 
 
@@ -82,7 +82,8 @@ def test_words_and_figures_agree(
     )
     text = confirmed_text(result)
     assert text.splitlines()[0] == said
-    assert text.endswith("opened 2 times so far")
+    onward = "\nto have it: thermodata add m lag:t4" if holds else ""
+    assert text.endswith(f"opened 2 times so far{onward}")
 
 
 @pytest.mark.parametrize(

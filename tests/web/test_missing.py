@@ -14,10 +14,11 @@ from thermodata.report.text.clauses import clauses
 from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.candidate import Rung
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
-from thermodata.store.catalogue.models.findings import load_diagnosis, save_diagnosis
+from thermodata.store.catalogue.models.findings import keep_answer, load_diagnosis, save_diagnosis
 from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.catalogue.models.looks import count_locked_look
 from thermodata.store.catalogue.models.stale import fitted_again
@@ -235,6 +236,29 @@ def test_a_rule_that_looks_at_other_errors_than_those_of_its_row_says_so(value: 
     assert _stumbles(row, rung) == said
     unlikely = rung.model_copy(update={"name": "probability", "value": 0.36, "limit": 0.65})
     assert _stumbles(row, unlikely) == "not likely enough (36 %)"
+
+
+def test_what_was_confirmed_by_choice_is_told_and_not_proposed_again(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    rules = [r.model_copy(update={"holds": r.name != "probability"}) for r in found.candidates[0].rungs]
+    likely = found.candidates[0].model_copy(
+        update={"claimed": False, "probability": 0.4, "rungs": rules, "locked_tests_asked": None}
+    )
+    save_diagnosis(store, model, found.model_copy(update={"verdict": "unknown", "candidates": [likely]}))
+    asks = f"confirm {model[:8]} {likely.id}"
+    text = html.unescape(client_of(lab)[0].get("/missing").text)
+    assert f"<li>thermodata {asks} asks the locked tests of it" in text, "a command is typed as it stands"
+    assert re.search(rf'data-copy="thermodata .*confirm {model} {likely.id}"', text)
+    answer = Confirmed(
+        model=model, response="dZ", candidate=likely.id, holds=True, locked_rmse_um_before=11.7,
+        locked_rmse_um_after=7.04, parameters={}, tests=[], looks=1,
+    )  # fmt: skip
+    keep_answer(store, model, f"confirm {likely.id}", "k", answer.model_dump_json())
+    text = html.unescape(client_of(lab)[0].get("/missing").text)
+    assert f"Asked by choice: {likely.id} holds on the locked tests: 11.7 → 7.04\N{NO-BREAK SPACE}µm." in text
+    assert f"thermodata {asks}" not in text
 
 
 def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) -> None:

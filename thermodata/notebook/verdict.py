@@ -9,7 +9,8 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.report.charts.courses import course_chart
 from thermodata.report.page.headline import capital
-from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
+from thermodata.report.text.confirmed import confirmed_text
+from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.verdict.verdict import claims_of, told, verdict_sentence
 from thermodata.report.words.numbers import in_unit, in_units
 

@@ -10,7 +10,8 @@ import click
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, in_units_of
 from thermodata.cli.terminal.stored_model import resolve, with_stale
-from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
+from thermodata.report.text.confirmed import confirmed_text
+from thermodata.report.text.diagnosis import diagnosis_text
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis

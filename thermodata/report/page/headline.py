@@ -121,6 +121,7 @@ def _verdict(data: ReportData, found: Diagnosis) -> str:
 
 
 def capital(text: str) -> str:
-    """With a capital, but for a name that is typed so: it has an underscore or a bracket next to it."""
-    first = text.partition(" ")[0]
-    return text if "_" in first or text.partition(" ")[2].startswith("(") else text[:1].upper() + text[1:]
+    """With a capital, but for what is typed so: a command, or a name with an underscore or a bracket next to it."""
+    first, _, rest = text.partition(" ")
+    typed = first == "thermodata" or "_" in first or rest.startswith("(")
+    return text if typed else text[:1].upper() + text[1:]

@@ -38,6 +38,7 @@ from thermodata.view.lists.models import ModelRow, model_rows
 from thermodata.view.lists.response_units import response_units, told_together, unit_of
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
+from thermodata.web.pages.parts.confirmed import confirmed, proposed
 from thermodata.web.pages.parts.drawn import among, pair
 from thermodata.web.render import desk_of, page
 
@@ -84,7 +85,7 @@ def show(request: Request) -> Response:
     found, stored = load_diagnosis(store, model.model), find_model(store, model.model)
     unit = unit_of(store, found.response, model.campaigns) if found else model.unit
     together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
-    answer = {"headline": "What does it miss?", "further": ""} if found is None else _answer(found, model, unit)
+    answer = {"headline": "What does it miss?", "further": ""} if found is None else _answer(store, found, model, unit)
     return page(
         request,
         "missing.html.j2",
@@ -103,24 +104,29 @@ def show(request: Request) -> Response:
         only_unlikely=_only_unlikely,
         among=among,
         pair=pair,
+        confirm_command=lambda one: command(desk.store_path, "confirm", model.model, one),
         add_command=lambda *some: command(desk.store_path, "add", model.model, *(c.id for c in some)),
         **answer,
         **_of_older_data(store, models, stored, found),
     )
 
 
-def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
+def _answer(store: Store, found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
     """What the page tells of the kept answer. unit: of its response."""
     shown, claims = told(found), claims_of(found)
     added = _added(found, model)
     missing = [c for c in claims if c.id not in added]
     first, rest = _headline(found)
+    by_choice = confirmed(store, model, found)
+    further, to_ask = proposed(rest, by_choice)
     title, text = _NOTHING.get(found.verdict, _NOTHING["none"])
     heat = found.unknown.heat if found.unknown else None
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
     return {
         "headline": in_unit(first, unit),
-        "further": [in_unit(clause, unit) for clause in rest],
+        "further": [in_unit(clause, unit) for clause in further],
+        "to_ask": to_ask,
+        "by_choice": [in_unit(said, unit) for said in by_choice.values()],
         "about": _about(found, model, unit),
         "of_response": capital(of_response(found)),
         "told": shown,
