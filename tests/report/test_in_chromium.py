@@ -152,6 +152,24 @@ def saved(chromium: Chromium, tmp_path: Path, text: str, **look: object) -> Page
     return chromium.open(path.as_uri(), **look)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("width", [1024, 1400])
+def test_candidates_with_long_names_and_their_sentences_are_not_cut(
+    chromium: Chromium, blind: ReportData, tmp_path: Path, width: int
+) -> None:
+    assert blind.diagnosis is not None
+    name = "ns_2_s_Chiller_supply_temperature_of_the_second_circuit"
+    long = {"id": f"chiller_temperature:{name},{name}2", "drivers": [name, f"{name}2"], "effect": "chiller_temperature"}
+    some = [
+        c.model_copy(update={**long, "beside": [f"lag:{name}"], "equivalent": [f"lag:{name}{i}" for i in range(9)]})
+        for c in blind.diagnosis.candidates
+    ]
+    told = blind.diagnosis.model_copy(update={"candidates": some})
+    tab = saved(chromium, tmp_path, render(dataclasses.replace(blind, diagnosis=told)), width=width)
+    widths = "[...document.querySelectorAll('table.candidates')].map(t => [t.offsetWidth, t.parentNode.clientWidth])"
+    assert all(own <= room for own, room in tab.js(widths))
+    tab.close()
+
+
 def test_a_weak_spot_leads_to_its_test_zoomed(chromium: Chromium, blind: ReportData, tmp_path: Path) -> None:
     tab = saved(chromium, tmp_path, render(blind))
     tab.js("document.querySelector('[data-show]').click()")

@@ -214,7 +214,7 @@ def test_many_that_it_cannot_be_told_from_are_folded_and_all_of_them_there(
     cell = page[page.index('class="ids"') :]
     cell = cell[: cell.index("</td>")]
     assert cell.count("lag:<wbr>T_") == twins
-    assert (f"and {twins - 3} more</summary>lag:<wbr>T_3" in cell) is folded
+    assert (f"and {twins - 3} more</summary>lag:<wbr>T_<wbr>3" in cell) is folded
 
 
 def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: ReportData) -> None:
