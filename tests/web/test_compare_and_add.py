@@ -90,7 +90,7 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert text.count("Fitted to the same tests, the version before leaves") == 1
     day1 = next(row for row in re.findall(r"<tr>(.*?)</tr>", text) if "test=day1" in row and "in-sample" in row)
     assert not re.search('class="(good|bad)"', day1)
-    assert "Not of tests to which one model was fitted and the other was not" in text
+    assert "In neither: tests to which one model was fitted and the other was not" in text
     assert re.search(
         r"in verification \(in-sample\)</p>", writer.get(f"/missing?model={model_rows(store)[0].model}").text
     )

@@ -58,6 +58,7 @@ def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> 
     for target in re.findall(r'<a href="#([a-z]+-\d+)">', text):
         assert target in ids
     assert set(RUNG_TARGET) == set(STUMBLES)
+    assert ">how probable it is, all weighed</a>" in text
 
 
 def test_an_answer_that_is_older_than_the_data_says_so(lab: Path) -> None:

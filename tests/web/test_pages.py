@@ -62,6 +62,7 @@ def test_a_folder_without_a_store_says_what_to_do(tmp_path: Path, url: str) -> N
     text = client_of(tmp_path)[0].get(url).text
     assert "There is no store yet" in text
     assert 'href="/start"' in text
+    assert "<code>thermodata init FOLDER</code>" in text, "a campaign file comes first"
 
 
 def test_names_from_data_are_escaped(reader: Client) -> None:
@@ -246,6 +247,7 @@ def test_a_table_of_errors_says_from_where_they_count(reader: Client, page: str)
         (-163.4, -49.2, "(−163 … −49)"),
         (0.00123, 0.00187, "(+0.00123 … +0.00187)"),
         (1.5, 1.5, "(+1.50 … +1.50)"),
+        (-8.3, -0.04, "(−8.3 … 0.0)"),
     ],
 )
 def test_an_interval_has_as_many_decimals_as_its_width(low: float, high: float, told: str) -> None:

@@ -71,7 +71,7 @@ def _refused(request: Request, error: Exception) -> Response:
     assert isinstance(error, ThermodataError)
     if not desk_of(request).has_store and request.url.path in _OF_A_STORE:
         # what is asked before there is anything to show leads on to it: the user may have no terminal
-        return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
+        return page(request, "no_store.html.j2", title="No store yet", command="thermodata init FOLDER")
     status = 503 if isinstance(error, StoreError) else 400
     # within a page stands what is refused alone, or a page would stand in the page
     template = "refused_part.html.j2" if request.headers.get("hx-request") else "refused.html.j2"

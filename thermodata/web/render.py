@@ -89,7 +89,12 @@ def plain_number(value: float, digits: int = 3) -> str:
 def ends(low: float, high: float) -> str:
     """'(−0.69 … +0.02)': both ends of an interval in as many decimals as two digits of its width have."""
     digits = max(0, 1 - math.floor(math.log10(high - low))) if high > low else 2
-    return typeset(f"({low:+.{digits}f} … {high:+.{digits}f})")
+    low, high = (round(end, digits) + 0.0 for end in (low, high))  # -0.0 is 0
+    return typeset(f"({_signed(low, digits)} … {_signed(high, digits)})")
+
+
+def _signed(value: float, digits: int) -> str:
+    return f"{value:+.{digits}f}" if value else f"{0:.{digits}f}"
 
 
 def link(path: str, /, **state: Any) -> str:
