@@ -21,6 +21,7 @@ from thermodata.report.page.left_over import what_is_left
 from thermodata.report.page.page import render
 from thermodata.report.words.glossary import ERRORS
 from thermodata.schema.answers.candidate import LeftOut
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.result import Check, Parameter
 
 from .conftest import diagnosis
@@ -186,6 +187,19 @@ def test_a_row_is_mostly_the_level_of_tests_that_make_most_of_it(
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:
     added = dataclasses.replace(data, reason=diagnosis("none"))
     assert headline(added) == "feed_screw was added to baseline, and no diagnosis claims it"
+
+
+@pytest.mark.parametrize("holds", [True, False])
+def test_what_the_locked_tests_said_of_a_choice_is_told(holds: bool, data: ReportData) -> None:
+    asked = Confirmed(
+        model="b1", response="dZ", candidate="feed_screw:T_nut_Z", holds=holds, locked_rmse_um_before=11.7,
+        locked_rmse_um_after=7.04, parameters={}, tests=[], looks=1,
+    )  # fmt: skip
+    added = dataclasses.replace(data, reason=diagnosis("none"), by_choice=(asked,))
+    chosen = "feed_screw was added to baseline by choice, and holds on the locked tests"
+    assert (headline(added) == chosen) is holds
+    held = "holds" if holds else "does not hold"
+    assert any(f"Asked by choice, feed_screw:T_nut_Z {held} on the locked tests" in line for line in sentences(added))
 
 
 @pytest.mark.parametrize("offered", [True, False])

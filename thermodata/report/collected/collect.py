@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from thermodata.report.collected.by_choice import asked_by_choice, of_added
 from thermodata.report.collected.data import ReportData, TestPart
 from thermodata.report.collected.history import chain_units, versions
 from thermodata.report.collected.older import what_is_older
@@ -15,6 +16,7 @@ from thermodata.report.collected.parts import by_role, parts_of
 from thermodata.report.collected.records import written_conditions
 from thermodata.report.collected.spots import weak_spots_of
 from thermodata.report.verdict.verdict import claims_of
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import Score
 
@@ -83,6 +85,7 @@ def collect(store: Store, ref: str) -> ReportData:
         reason_of_fit=reason.of_fit,
         reason_but_for=reason.but_for,
         offered=reason.offered,
+        by_choice=_by_choice(store, chain),
         weak=weak_spots_of(loaded, (reason.said, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, stored.spec.campaign_ids),
@@ -115,6 +118,17 @@ def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, re
         tuple(second) if foretold else (),
         not removed_only and adds_what_was_offered(spec, loaded.data, before, said),
     )
+
+
+def _by_choice(store: Store, chain: Sequence[StoredModel]) -> tuple[Confirmed, ...]:
+    """What the locked tests said of what the last version added, asked of the version before."""
+    from thermodata.store.catalogue.models.findings import load_diagnosis
+
+    found = load_diagnosis(store, chain[-2].model) if len(chain) > 1 else None
+    if found is None:
+        return ()
+    asked = asked_by_choice(store, chain[-2].model, chain[-2].result.responses, found)
+    return of_added(asked, chain[-1].result.added or [])
 
 
 def _told_as_stored(chain: Sequence[StoredModel], lacking: Mapping[str, Any]) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from thermodata.modelling.seen.as_system import SeenResponse
 from thermodata.plugin import Float1D
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.answers.result import Check, Parameter, Score
 from thermodata.view.lists.response_units import told_together
@@ -111,6 +112,7 @@ class ReportData:
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
     reason_of_fit: whether its claims were confirmed in this very fit: on these data and tests, with no other effect.
     reason_but_for: second lags that came along with its claims, where this fit is theirs but for these.
+    by_choice: what locked tests said of what the last version added, asked of the version before by somebody's choice.
     offered: whether all that was added since are refinements that it offered.
     units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
     test was opened, for whichever model. calibrations: rows of the catalogue's table.
@@ -147,6 +149,7 @@ class ReportData:
     reason_of_fit: bool = True
     reason_but_for: tuple[str, ...] = ()
     offered: bool = False
+    by_choice: tuple[Confirmed, ...] = ()
 
     def unit_of(self, found: Diagnosis | str | None) -> str:
         """Of a response, or of the one that was diagnosed."""

@@ -6,6 +6,7 @@ from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows, headline_error
 from thermodata.report.text.clauses import clauses
+from thermodata.report.text.confirmed import confirmed_sentence
 from thermodata.report.verdict.candidate_errors import from_fitted
 from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words.numbers import change, in_unit, number
@@ -30,6 +31,8 @@ def headline(data: ReportData) -> str:
             return (
                 f"{data.added} was added to {data.name}: a refinement that its diagnosis offered, claimed as no cause"
             )
+        if data.by_choice and all(asked.holds for asked in data.by_choice):
+            return f"{data.added} was added to {data.name} by choice, and holds on the locked tests"
         return f"{data.added} was added to {data.name}, and no diagnosis claims it"
     if data.diagnosis:
         claims = claims_of(data.diagnosis)
@@ -80,6 +83,7 @@ def sentences(data: ReportData) -> list[str]:
     said = row is not None and number(row.after) in headline(data)
     lines = [] if said else [error_sentence(data)]
     lines += [*_levels(data), _foretold(data)]
+    lines += [f"Asked by choice, {confirmed_sentence(asked)}" for asked in data.by_choice]
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     told = claims if data.added else claims_of(data.diagnosis) if data.diagnosis else []

@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from thermodata.report.collected.by_choice import asked_by_choice
 from thermodata.report.text.confirmed import confirmed_sentence
-from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
-from thermodata.store.catalogue.models.findings import kept_answer
 from thermodata.view.lists.models import ModelRow
 
 _ASKS = re.compile(r"thermodata confirm \w+ (\S+)")
@@ -17,10 +16,8 @@ _ASKS = re.compile(r"thermodata confirm \w+ (\S+)")
 
 def confirmed(store: Store, model: ModelRow, found: Diagnosis) -> dict[str, str]:
     """Candidate -> what the locked tests said of it, of those that `confirm` was asked of."""
-    of = "" if len(model.responses) == 1 else f" of {found.response}"
-    kept = {c.id: kept_answer(store, model.model, f"confirm {c.id}{of}") for c in found.candidates}
-    answers = {name: Confirmed.model_validate_json(answer) for name, answer in kept.items() if answer is not None}
-    return {name: confirmed_sentence(answer) for name, answer in answers.items()}
+    asked = asked_by_choice(store, model.model, model.responses, found)
+    return {name: confirmed_sentence(answer) for name, answer in asked.items()}
 
 
 def proposed(clauses: Iterable[str], known: Iterable[str]) -> tuple[list[str], list[str]]:
