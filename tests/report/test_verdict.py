@@ -819,6 +819,17 @@ def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None
     assert ("on left-out tests (1.40 um of the response's 5.10) that nothing logged is likely" in text) is not likely
 
 
+@pytest.mark.parametrize(("after", "said"), [(0.97, True), (0.99, False)])
+def test_nothing_is_said_to_explain_what_is_left_but_what_refines_and_takes_much_of_it(
+    after: float, said: bool
+) -> None:
+    """A bearing, by its kind a mode of the motor, took 6.62 to 4.12 um below "nothing logged is likely to explain"."""
+    mode = one("screw", refinement=True, rmse_um_before=1.4, rmse_um_after=after)
+    text = verdict_sentence(found("unknown", [one("oil", probability=0.02), mode], rmse_um=1.4, response_um=5.1))
+    but = " that nothing logged is likely to explain but screw (T), which would refine what the model has"
+    assert (but in text) is said
+
+
 def test_nothing_logged_is_said_only_where_all_that_is_logged_was_asked() -> None:
     not_asked = Unknown(time_constants_h=[], hours_of_day=[], states=[], not_logged=0.77, by_name=["overhang:T,z"])
     some = [one("screw", probability=0.01)]

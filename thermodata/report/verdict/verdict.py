@@ -16,7 +16,7 @@ from thermodata.report.verdict.left_over import (
     on_left_out,
     stays,
 )
-from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
+from thermodata.report.verdict.refined import can_be_refined, explained_by_refining, named, told_with_errors
 from thermodata.report.verdict.stopped import asks_locked, better_with, is_likely, stopped
 from thermodata.report.verdict.twins import by_name, not_told_from
 from thermodata.report.verdict.unasked import unasked
@@ -249,6 +249,7 @@ def _unclaimed(found: Diagnosis) -> str:
         unasked = was_not_asked(found)
         nothing = "nothing that was asked for" if unasked else "nothing logged"
         left = f"something is left{f'{seen},' if seen else on_left_out(found)} that {nothing} is likely to explain"
+        left += explained_by_refining(found)
         left += f", though {as_much}" if as_much else ""
         nearest = f"{_or_elsewhere(first)} comes nearest, probability {probability(share)}"
         open_still = could_be(found)
