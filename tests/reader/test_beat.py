@@ -37,6 +37,30 @@ def test_noise_at_a_beat_has_one_but_may_rest_at_zero() -> None:
     assert ended.tolist() == [False, True, False]
 
 
+def feed(moves: int, digits: int = 3) -> tuple[Int1D, list[str]]:
+    """A feed that is written each 10 s while its axis moves, for ten minutes, and each ten minutes while it rests, for
+    half an hour."""
+    rng = np.random.default_rng(5)
+    t_s, texts = [0], ["0"]
+    for _ in range(moves):
+        t_s += [t_s[-1] + 10 * (k + 1) for k in range(60)]
+        texts += [f"{9 + x:.{digits}f}" for x in rng.normal(0, 0.1, 60)]
+        t_s += [t_s[-1] + x for x in (10, 610, 1210, 1810)]
+        texts += ["0"] * 4
+    return np.array(t_s) * S, texts
+
+
+@pytest.mark.parametrize("digits", [1, 3])  # of one digit, the moving feed comes again by chance as well
+def test_a_heartbeat_of_what_rests_is_its_beat(digits: int) -> None:
+    assert beat_of(*feed(6, digits)) == Beat(6000 * S, rests=False)
+
+
+def test_equal_silences_of_what_is_written_again_at_its_beat_are_no_heartbeat() -> None:
+    t_ns = every(10, 300) + np.arange(300) // 60 * 600 * S  # a sensor of one digit, lost for ten minutes four times
+    assert beat_of(t_ns, ["21"] * 300) == Beat(100 * S, rests=False)
+    assert beat_of(t_ns, noise(300, 2)) == Beat(100 * S, rests=False)
+
+
 def stops(n: int, size: int, pause_s: float) -> Int1D:
     """Rows of 0.1 s with a pause after each `size`: an axis that stands between its moves."""
     return every(0.1, n) + (np.arange(n) // size * pause_s * S).astype(np.int64)

@@ -165,3 +165,17 @@ def test_a_tag_that_dies_has_no_value_beyond_ten_of_its_steps(tmp_path: Path) ->
     data = load(Reader(), path, Source())
     dead = np.isnan(data.values["nc", "T_dead"])
     assert np.flatnonzero(dead).tolist() == list(range(60, 90))
+
+
+def test_an_axis_at_rest_keeps_its_feed_between_heartbeats(tmp_path: Path) -> None:
+    moves = [(3600 * h + 10 * k, 9 + (k * 7 % 5) / 10) for h in range(4) for k in range(180)]
+    rests = [(3600 * h + 1800 + 600 * k, 0.0) for h in range(4) for k in range(3)]
+    bed = [(60 * k, 20 + (k * 7 % 5) / 10) for k in range(240)]
+    rows = sorted((t, tag, v) for tag, log in (("Feed_X", moves + rests), ("T_bed", bed)) for t, v in log)
+    path = tmp_path / "log.csv"
+    told = [f"2026-03-02T{t // 3600:02d}:{t // 60 % 60:02d}:{t % 60:02d}Z;{tag};{v};192" for t, tag, v in rows]
+    path.write_text("\n".join(["time;tag;value;quality", *told, ""]))
+    data = load(Reader(), path, Source())
+    feed = data.values["nc", "Feed_X"]
+    assert not np.isnan(feed).any()
+    assert (feed == 0).sum() == 4 * 30
