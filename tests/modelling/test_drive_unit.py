@@ -45,3 +45,21 @@ def test_a_path_of_a_product_has_it_too_and_its_state(world: Dataset, spec: Spec
     (one,) = see(fit_model(spec(effect), world), world)
     assert [path.unit for path in one.paths] == ["um/K"]
     assert {state.unit for state in one.states} == {"K"}
+
+
+@pytest.mark.parametrize(
+    ("effect", "said", "state"),
+    [
+        ({"effect": "spindle_friction", "drivers": {"speed": "speed"}}, "um", "1"),
+        ({"effect": "centrifugal_shift"}, "um", "1"),
+        ({"effect": "lag", "drivers": {"u": "speed"}}, "um/rpm", "rpm"),
+        ({"effect": "lag", "drivers": {"u": "speed / 1000"}}, "um/rpm", "rpm"),
+    ],
+)
+def test_a_gain_at_a_reference_has_the_unit_of_the_response(
+    world: Dataset, spec: Spec, effect: dict[str, object], said: str, state: str
+) -> None:
+    fitted = fit_model(spec(effect), world)
+    (one,) = see(fitted, world)
+    assert [path.unit for path in one.paths] == [said]
+    assert {s.unit for s in one.states} == {state}

@@ -140,7 +140,7 @@ def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -
         _named(path.drive, term),
         None if path.times is None else _named(path.times, term),
         path.holds,
-        over_unit(unit, *_drives(path, term)),
+        over_unit(unit, *_drives(path, term, unit)),
         system,
         (kept * step_s, response),
         (hertz, np.abs(answer), phase),
@@ -152,10 +152,14 @@ def _named(node: law.Node, term: TermLaw) -> str:
     return written(law.put(node, {role: d.tree for role, d in term.drives.items()}))
 
 
-def _drives(path: Path, term: TermLaw) -> list[Powers | None]:
-    """The units of what drives a path, and of what it is multiplied by."""
+def _drives(path: Path, term: TermLaw, unit: str) -> list[Powers | None]:
+    """The units of what drives a path, and of what it is multiplied by. unit: of the response. Whether a number in
+    them is a reference ('at 10000 rpm') the units of the effect's gains tell."""
     units = {role: drive.unit for role, drive in term.drives.items()}
-    return [powers_of(node, units) for node in (path.drive, path.times) if node is not None]
+    nodes = [node for node in (path.drive, path.times) if node is not None]
+    plain, referred = ([powers_of(node, units, reference) for node in nodes] for reference in (False, True))
+    told = {gain.unit for gain in term.gains}
+    return referred if over_unit(unit, *plain) not in told and over_unit(unit, *referred) in told else plain
 
 
 def _states(
@@ -176,7 +180,7 @@ def _states(
                 node = law.Filtered(node, Filter(modes=(replace(mode, weight=1.0),)))
             courses = [_course(terms[term.id], node, t, step_s) for t in tests]
             tau = "" if mode is None or mode.tau_s is None else f" after {_told(mode.tau_s)}"
-            unit = written_unit(_drives(path, term)[0] or {}) or "1"
+            unit = written_unit(_drives(path, term, response.unit)[0] or {}) or "1"
             found.append(against(f"{term.id}: {_named(path.drive, term)}{tau}", unit, courses, residuals))
     unique = {a.state: a for a in found}
     return tuple(a for a in unique.values() if len(a.centres))

@@ -40,24 +40,30 @@ def times(*factors: Powers) -> Powers:
     return {unit: power for unit, power in found.items() if power}
 
 
-def powers_of(node: law.Node, units: Mapping[str, str]) -> Powers | None:
-    """units: of the symbols, '1' of a pure number. None where it has no unit: a sum of different ones."""
+def powers_of(node: law.Node, units: Mapping[str, str], reference: bool = False) -> Powers | None:
+    """units: of the symbols, '1' of a pure number. reference: what is divided by a number is so by a reference in its
+    own unit, as in abs(speed / 10000), which is a pure number then. None where it has no unit: a sum of different
+    ones."""
     match node:
+        case law.Binary("/", _, law.Number()) if reference:
+            return {}
         case law.Symbol(name):
             unit = units.get(name, "1")
             return {} if unit in ("1", "") else {unit: 1.0}
         case law.Number() | law.Compare() | law.Logic():
             return {}
         case law.Absolute(of) | law.Lag(of) | law.Delay(of) | law.Filtered(of):
-            return powers_of(of, units)
+            return powers_of(of, units, reference)
         case law.Where(_, one, other) | law.Binary("+" | "-", one, other):
-            known = [powers_of(part, units) for part in (one, other) if not isinstance(part, law.Number)] or [{}]
+            known = [
+                powers_of(part, units, reference) for part in (one, other) if not isinstance(part, law.Number)
+            ] or [{}]
             return known[0] if all(part == known[0] for part in known) else None
         case law.Binary("**", base, law.Number(power)):
-            own = powers_of(base, units)
+            own = powers_of(base, units, reference)
             return None if own is None else {unit: n * power for unit, n in own.items()}
         case law.Binary("*" | "/" as operator, left, right):
-            a, b = powers_of(left, units), powers_of(right, units)
+            a, b = powers_of(left, units, reference), powers_of(right, units, reference)
             if a is None or b is None:
                 return None
             return times(a, b if operator == "*" else {unit: -n for unit, n in b.items()})
