@@ -126,6 +126,31 @@ def _effects_of(places: dict[str, str]) -> str:
     return model_text_of(campaign) or ""
 
 
+def test_a_first_model_of_another_response_says_its_own_name_and_what_it_cannot_tell() -> None:
+    probe = {"source": "s", "quantity": "displacement", "unit": "um"}
+    nut = {"source": "s", "signal": "T", "quantity": "temperature", "unit": "degC"}
+    campaign = Campaign.model_validate(
+        {
+            "schema": "thermodata/campaign/1",
+            "id": "c",
+            "machine": {"id": "m"},
+            "sources": {"s": {"reader": "table", "files": "{test}.csv"}},
+            "channels": {
+                "dZ": {**probe, "signal": "dZ", "axis": "Z", "at": "tcp", "relative_to": "table"},
+                "ch3": {**probe, "signal": "ch3"},
+                "T_nut": {**nut, "at": "axis.z.nut"},
+                "T_hall": {**nut, "at": "hall"},
+            },
+            "tests": [{"id": "t", "kind": "etve", "role": "calibration"}],
+        }
+    )
+    text = model_text_of(campaign, "ch3") or ""
+    assert "thermodata diagnose baseline_ch3 says" in text
+    assert "name: baseline_ch3" in text
+    assert "on an axis, and the response has none yet: feed_screw (T_nut)" in text
+    assert "diagnose baseline says" in (model_text_of(campaign) or "")
+
+
 @pytest.mark.parametrize("mid", ["hall", None])
 def test_a_first_model_reads_the_air_of_the_hall_before_that_above(mid: str | None) -> None:
     text = _effects_of({"T_top": "hall.top", "T_air": mid or "hall.bottom"})

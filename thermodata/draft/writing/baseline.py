@@ -112,11 +112,12 @@ def _text(campaign: str, channels: Mapping[str, _KnownChannel], chosen: str | No
     wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
     others = _measured_too(channels, chosen, axes)
     unplaced = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
+    name = "baseline" if chosen == first else str(scalar(f"baseline_{chosen}"))
     text = [
         "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
-        "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
+        f"# Next: thermodata fit model.yaml, then thermodata diagnose {name} says which effect is missing.",
         "schema: thermodata/model/1",
-        f"name: {'baseline' if chosen == first else scalar(f'baseline_{chosen}')}",
+        f"name: {name}",
         f"campaign: {scalar(campaign)}",
         f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
         "step: 60 s",
@@ -155,10 +156,16 @@ def _effects(sensors: _Sensors) -> list[str] | None:
         lines.append("# logged too, and left to thermodata diagnose; to have one now, delete its '#':")
         lines += [f"#{line}" for line in offered]
     if elsewhere:
-        lines.append(f"# on another axis than the response's, {sensors.axis}: {', '.join(elsewhere)}")
+        lines.append(f"# {_elsewhere(sensors.axis)}: {', '.join(elsewhere)}")
     if missing:
         lines.append(f"# no sensor for: {', '.join(missing)}")
     return lines
+
+
+def _elsewhere(axis: str | None) -> str:
+    if axis is None:
+        return "on an axis, and the response has none yet"
+    return f"on another axis than the response's, {axis}"
 
 
 def _line(effect: str, drivers: Mapping[str, str]) -> str:
