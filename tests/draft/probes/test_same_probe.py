@@ -112,3 +112,22 @@ def test_two_probes_along_one_axis_have_a_jump_test_each(tmp_path: Path) -> None
         "Slow/Probe Z": "jump_dZ",
     }
     assert not draft.not_used
+
+
+@pytest.mark.parametrize(("named", "unit"), [("jump_dZ_table", "V"), ("jump_dZ", None)])
+def test_signals_that_nothing_tells_of_are_probes_by_their_jump_test(
+    tmp_path: Path, named: str, unit: str | None
+) -> None:
+    """S1 in volts, or in nothing that a file says, is a displacement where it moves in steps in a file called jump."""
+    for k in range(3):
+        columns = {"S1": (warm(2000, 0.5, 0.1, 0.3, k), unit), "T1": (warm(2000, 22, 5, 0.3, k), "degC")}
+        tdms(tmp_path / f"m{k}.tdms", {"Slow": columns}, START, 10)
+    tdms(tmp_path / f"{named}.tdms", {"Slow": {"S1": (volts(), unit)}}, START, 0.05)
+    draft = draft_files(tmp_path).draft
+    (probe,) = [c for c in draft.channels if c.said.quantity == "displacement"]
+    assert (probe.said.unit, probe.said.axis, probe.calibration) == (unit, "Z", "jump_Slow_S1")
+    asked = [q.partition("?")[0] for q in probe.said.questions]
+    own = ["at: tcp, or the table itself"] if "table" in named else ["unit: um, mm, m or V"]
+    assert asked == [*own, f"axis: Z by {named}.tdms"]
+    assert probe.said.at == (None if "table" in named else "tcp")
+    assert [t.id for t in draft.tests] == ["m0", "m1", "m2"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.commands import Say
-from thermodata.draft.signals.guess import called
+from thermodata.draft.signals.guess import called, guess_of
 from thermodata.plugin import Signal
 from thermodata.schema.files.load import load_campaign
 
@@ -93,3 +93,16 @@ def test_comments_above_a_table_name_its_channels_and_a_test_that_lacks_one_is_a
     (second,) = [line for line in channels if "Kanal 2" in line]
     assert "called 'Lager vorn' in the file" in front
     assert "? the same in all tests? the files call it 'Lager hinten' (1), 'Bett' (1)" in second
+
+
+@pytest.mark.parametrize(
+    ("said", "name", "quantity"),
+    [("V", "S1", "voltage"), ("mV", "S1", "voltage"), ("V", "T_bed", "temperature"), ("VA", "S1", None)],
+)
+def test_volts_that_are_all_that_a_file_says_of_a_signal_are_its_unit(
+    said: str, name: str, quantity: str | None
+) -> None:
+    found = guess_of(Signal(name, "ai", None, properties={"description": said}))
+    assert found.quantity == quantity
+    if quantity == "voltage":
+        assert found.unit == said

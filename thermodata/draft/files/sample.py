@@ -20,6 +20,7 @@ from thermodata.reader.contract.guard import guarded
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
 SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
+LONGEST_JUMP_NS = 3600 * 10**9
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _COURSE_IF_ROOM = ("power", None)  # None: what no name says its values may, as of a switch
@@ -123,7 +124,8 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     finally:
         items.close()  # type: ignore[attr-defined]
     first, last = extent_of(clocks) or (first, last)
-    told = {(s.stream, s.name) for s in recording.signals if _tells(s, values.get((s.stream, s.name)))}
+    brief = whole and (last or 0) - (first or 0) <= LONGEST_JUMP_NS  # a jump test may be of what nothing tells of
+    told = {(s.stream, s.name) for s in recording.signals if brief or _tells(s, values.get((s.stream, s.name)))}
     return Sample(
         values,
         {k: _thinned(v) for k, v in parts.items() if k in told},

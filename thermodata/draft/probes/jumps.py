@@ -13,9 +13,9 @@ import numpy as np
 
 from thermodata.calibration.jump.plateaus import Step, find_steps
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.files.sample import Course
+from thermodata.draft.files.sample import LONGEST_JUMP_NS, Course
 from thermodata.draft.signals.guess import guess_of
-from thermodata.draft.signals.quantity.guessed import Guess
+from thermodata.draft.signals.quantity.guessed import NOTHING, Guess
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.naming import words
@@ -24,7 +24,7 @@ from thermodata.plugin import Float1D
 NAMED = (
     "^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 step. steps."
 )
-_LONGEST_S = 3600.0
+_LONGEST_S = LONGEST_JUMP_NS / 1e9
 _MOST_STEPS, _LEAST_STEPS = 40, 2
 _TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
 _ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
@@ -83,7 +83,7 @@ def jumps_in(file: RawFile) -> list[JumpTest]:
     moved: list[Moved] = []
     probes = _probes(file, named)
     stirred = _others_move(file, probes)
-    for key in probes:
+    for key in probes or (_nameless(file) if named else ()):
         course = file.sample.courses.get(key)
         found = staircase(course) if course is not None else None
         if found is None or (stirred and not named):
@@ -128,6 +128,16 @@ def _probes(file: RawFile, named: bool) -> list[tuple[str, str]]:
     alone = all(map(is_length, said.values()))
     lengths = [key for key, g in said.items() if is_length(g) and (alone or axis_of(words(key[1])) is None)]
     return [key for key in lengths if (v := file.sample.values.get(key)) and v.high - v.low < _TRAVEL_MM]
+
+
+def is_nameless(said: Guess) -> bool:
+    """Whether nothing tells what a signal is: 'S1', without a unit."""
+    return said.quantity is None and (said.why_not or "").startswith(NOTHING)
+
+
+def _nameless(file: RawFile) -> list[tuple[str, str]]:
+    """(stream, name) of what nothing tells of: what moves in steps in a file that is called a jump test is a probe."""
+    return [(s.stream, s.name) for s in file.signals if s.dtype not in ("str", "bool") and is_nameless(guess_of(s))]
 
 
 def _is_short(file: RawFile) -> bool:

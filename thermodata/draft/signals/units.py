@@ -72,7 +72,10 @@ def rate_at_end(name: str) -> tuple[str, str | None]:
 
 
 def described(text: str, quantity: str | None) -> str | None:
-    """The unit at the end of what a file says of a signal, where it is one of its quantity: 'Istdrehzahl Grad/s'."""
+    """The unit at the end of what a file says of a signal, where it is one of its quantity: 'Istdrehzahl Grad/s'. Of
+    one that nothing else tells of, the volts that are all that it says."""
+    if quantity is None and normal_unit(text.strip()) in ("V", "mV"):
+        return text.strip()
     last = text.split()[-1] if text.split() else ""
     said = split_unit(text)[1] or (last if "/" in last else "")
     return said if said and quantity is not None and is_unit(said) and may_be(said, quantity) else None

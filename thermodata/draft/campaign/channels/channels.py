@@ -15,14 +15,15 @@ from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.folder.into_sources.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.probes.at_rail import at_rail
-from thermodata.draft.probes.jumps import JumpTest, is_length
+from thermodata.draft.probes.jumps import JumpTest, is_length, is_nameless
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called
-from thermodata.draft.signals.quantity.guessed import Guess
+from thermodata.draft.signals.quantity.guessed import NOTHING, Guess
 from thermodata.draft.signals.told_units.own_scale import scale_note
 from thermodata.draft.signals.told_units.two_units import with_both_units
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
+from thermodata.draft.words.place import place_of
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.schema.agreed.exported import UNSIGNED, is_own, is_own_export, own_channel, own_sign
@@ -162,8 +163,8 @@ def _with_jump(one: OneSignal, said: Guess, jumps: Sequence[JumpTest], twin: boo
     jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
     if jump is None and said.quantity == "displacement" and not twin:
         jump, said = moved_too(signal, said, jumps)
-    if jump is not None and (said.quantity == "voltage" or is_length(said)):
-        said = _moved_probe(said, called(signal))
+    if jump is not None and (said.quantity == "voltage" or is_length(said) or is_nameless(said)):
+        said = _moved_probe(said, called(signal), jump.file.path.stem)
     return jump, said
 
 
@@ -183,8 +184,12 @@ def _way(one: OneSignal) -> str | None:
     return f"the head of the file says '{shown}'" if lines else None
 
 
-def _moved_probe(said: Guess, name: str) -> Guess:
-    """What is in volts or a length and moved in a jump test: a displacement, along the axis that its name says."""
+def _moved_probe(said: Guess, name: str, jump: str) -> Guess:
+    """What is in volts, a length or nothing that is known, and moved in a jump test: a displacement, along the axis
+    that its name says. jump: what the test's file is called, which may have the part that the probe looks at."""
     letter = (axis_of(words(parts_of(name)[-1])) or "").upper()
     axis = letter if letter in ("X", "Y", "Z") else None
-    return Guess("displacement", said.unit, "tcp", axis, False, ("data",), () if axis else ("axis?",))
+    place = place_of(words(jump), "displacement")
+    unit = (said.why_not or "").replace(NOTHING, "unit: um, mm, m or V?", 1)  # of what nothing else told
+    questions = (*filter(None, (unit, place.question)), *(() if axis else ("axis?",)))
+    return Guess("displacement", said.unit, place.at, axis, False, ("data",), questions)
