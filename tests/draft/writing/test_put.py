@@ -10,7 +10,7 @@ from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.writing.baseline import model_text_of
 from thermodata.draft.writing.fill_in import filled_in
 from thermodata.draft.writing.put import EVERY, put
-from thermodata.draft.writing.questions import questions
+from thermodata.draft.writing.questions import only_in_file, questions
 from thermodata.errors import UsageError
 from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 
@@ -259,3 +259,28 @@ def test_a_model_file_in_another_encoding_is_one_that_somebody_wrote(tmp_path: P
     kept = first_model(path).kept
     assert kept is not None
     assert kept.read_bytes() == own, "the copy keeps its bytes"
+
+
+@pytest.mark.parametrize(("answer", "by_hand"), [("displacement [V]", True), ("displacement [um]", False)])
+def test_a_probe_that_comes_to_life_is_asked_for_its_place_and_axis(answer: str, by_hand: bool) -> None:
+    text = filled_in(TEXT, {"unread.v_Z": answer})
+    fields = {q.name: q for q in questions(text)}
+    assert fields["channels.v_Z.at"].open
+    assert fields["channels.v_Z.axis"].open
+    assert any(q.asks.startswith("calibration?") for q in only_in_file(text)) is by_hand
+    text = filled_in(text, {"channels.v_Z.at": "tcp", "channels.v_Z.axis": "Z"})
+    channel = parse_campaign(text).channels["v_Z"]
+    assert (channel.at, channel.axis) == ("tcp", "Z")
+    asked = {q.name for q in questions(text) if q.open}
+    assert not {"channels.v_Z.at", "channels.v_Z.axis"} & asked
+
+
+def test_a_voltage_is_asked_what_it_measures_and_where() -> None:
+    asks = "# ? what does it measure? then: quantity, calibration (unit only)"
+    text = TEXT.replace(
+        "channels:\n", f"channels:\n  U: {{source: log, signal: U, quantity: voltage, unit: V}}   {asks}\n"
+    )
+    assert {q.name: q for q in questions(text)}["channels.U.quantity"].open
+    after = filled_in(text, {"channels.U.quantity": "displacement [V]"})
+    assert {q.name for q in questions(after) if q.open} >= {"channels.U.at", "channels.U.axis"}
+    assert "channels.U.quantity" not in {q.name for q in questions(after) if q.open}

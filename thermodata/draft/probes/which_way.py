@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import UsageError
 
 ASKED = "which way does it count?"
+CALIBRATION_ASKED = "calibration? a jump test, or kind: scale with a gain in um/V"
 _WAYS = ("gap", "approach")
 _AXES = ("X", "Y", "Z")
 

@@ -26,7 +26,7 @@ _OF = {
     "format": "format",
     "kind": "kind",
     "period": "period",
-    "quantity": "quantity|unit:",
+    "quantity": "quantity|unit:|what does it measure",
     "role": "role",
     "sign": r"which way does it count|calibration\?",
     "start": "start:",

@@ -44,7 +44,7 @@ def filled_in(text: str, given: Mapping[str, str]) -> str:
             raise UsageError("an answer is one line", where=name, hint="write it without line breaks")
         if name not in known:
             at = left_out[channel][0]
-            lines[at] = _said(come_to_life(lines[at]), answer, ("channels", channel))
+            lines[at] = _said(come_to_life(lines[at], answer), answer, ("channels", channel))
             continue
         place, key = known[name]
         at = document.line[place] - 1

@@ -138,15 +138,16 @@ def _of_source(source: Mapping[str, Any], asks: tuple[str, ...]) -> Iterator[str
 
 
 def _of_channel(channel: Mapping[str, Any], asks: tuple[str, ...], data: Mapping[str, Any]) -> Iterator[str]:
-    if any(q.startswith("quantity:") for q in asks) and "quantity" in channel:
+    if any(q.startswith(("quantity:", "what does it measure?")) for q in asks) and "quantity" in channel:
         yield "quantity"
     elif _any("unit", asks):
         yield "unit"
-    if _any("axis", asks):
+    probe = channel.get("quantity") == "displacement" and "derive" not in channel
+    if _any("axis", asks) or (probe and "axis" not in channel):
         yield "axis"
     if _any("sign", asks) and _is_a_length(channel) and may_be_asked(channel, mapping_of(data, "calibrations")):
         yield "sign"
-    if channel.get("quantity") in _PLACED:
+    if channel.get("quantity") in _PLACED or (probe and (_any("at", asks) or "at" not in channel)):
         yield "at"
 
 

@@ -6,8 +6,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from thermodata.draft.probes.which_way import CALIBRATION_ASKED
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.units.conversion import converts, linear_conversion
 from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES
 
 WHAT: tuple[str, ...] = tuple(f"{q} [{CANONICAL_UNIT[q]}]" for q in QUANTITIES if q != "label")
@@ -42,8 +43,13 @@ def quantity_and_unit(answer: str, where: str) -> tuple[str, str]:
     return quantity, unit
 
 
-def come_to_life(line: str) -> str:
-    """A line that was left out, as one of the channels; its place is what is asked next."""
+def come_to_life(line: str, answer: str) -> str:
+    """A line that was left out, as one of the channels; its place is what is asked next, and of a displacement its axis
+    and, where it is no length, what turns it into one."""
     found = _LINE.match(line)
     assert found is not None
-    return f"  {found['name']}: {found['body']}   # ? at: where on the machine? ({found['hint'].strip()})"
+    quantity, unit = quantity_and_unit(answer, found["name"].strip())
+    asked = [f"at: where on the machine? ({found['hint'].strip()})"]
+    if quantity == "displacement":
+        asked = ["axis?", *([] if converts(unit, "um") else [CALIBRATION_ASKED]), *asked]
+    return f"  {found['name']}: {found['body']}   # ? {', '.join(asked)}"

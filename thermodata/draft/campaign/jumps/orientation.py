@@ -10,7 +10,7 @@ from thermodata.draft.campaign.parts import DraftJump
 from thermodata.draft.folder.into_sources.one_signal import OneSignal
 from thermodata.draft.probes.between_axes import question_between
 from thermodata.draft.probes.jumps import JumpTest
-from thermodata.draft.probes.which_way import ASKED, calibration_for
+from thermodata.draft.probes.which_way import ASKED, CALIBRATION_ASKED, calibration_for
 from thermodata.draft.signals.quantity.guessed import Guess
 from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
@@ -104,8 +104,7 @@ def calibration_of(name: str, signal: Signal, said: Guess, jump: JumpTest | None
     jumps: all, of which one that shows no steps may be its own by its name."""
     jump = jump or next((j for j in jumps if _may_be_of(j, signal, said)), None)
     if jump is None:
-        asked = "calibration? a jump test, or kind: scale with a gain in um/V"
-        return Turned(replace(said, sure=False, questions=(*said.questions, asked)))
+        return Turned(replace(said, sure=False, questions=(*said.questions, CALIBRATION_ASKED)))
     if (between := question_between(name, said.unit or "V", jump, jumps)) is not None:
         others = (q for q in said.questions if q != "axis?")
         questions = (*others, between)
