@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.view.grid.dataset import Dataset, TestData
 
@@ -51,3 +52,16 @@ def test_a_shifted_sensor_loses_a_test_where_its_constant_stays(
 ) -> None:
     said = skipped(with_shifted(world), spec, driver)
     assert ("'T_nut' is flagged 'offset' there, so the fit lost this test" in said) is lost
+
+
+@pytest.mark.parametrize(
+    ("gone", "told"), [("dZ", "a probe in volts has no displacement"), ("T_nut", "take the effect")]
+)
+def test_what_to_give_is_of_what_all_tests_lack(world: Dataset, spec: Spec, gone: str, told: str) -> None:
+    fitted = {t.test for t in world.tests if t.role == "calibration"}
+    tests = tuple(
+        replace(t, values={n: v for n, v in t.values.items() if n != gone or t.test not in fitted}) for t in world.tests
+    )
+    with pytest.raises(UsageError) as refused:
+        fit_model(spec("feed_screw"), replace(world, tests=tests))
+    assert told in str(refused.value.hint)

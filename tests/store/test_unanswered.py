@@ -70,3 +70,13 @@ def test_the_sign_that_is_proposed_is_of_the_axis_of_the_probe() -> None:
     (told,) = (s for s in unanswered(parse_campaign(text)) if s.startswith("sign unknown"))
     assert "{sign_y: {kind: scale, axis: Y," in told
     assert "and sign_x with axis: X" in told
+
+
+def test_a_probe_in_volts_is_offered_a_gain_in_um_per_volt() -> None:
+    text = (TEXT % "").replace(", calibration: s", ", unit: V")
+    said = unanswered(parse_campaign(text))
+    (told,) = (s for s in said if s.startswith("no length before a calibration: dX"))
+    assert "{sign_x: {kind: scale, axis: X, gain: ? um/V, facing: ?, increases_with: ?}}" in told
+    assert not [s for s in said if s.startswith("sign unknown")]
+    in_um = unanswered(parse_campaign(text.replace("unit: V", "unit: mm")))
+    assert [s for s in in_um if s.startswith("sign unknown")]

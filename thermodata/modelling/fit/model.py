@@ -19,7 +19,7 @@ from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, has_response
 from thermodata.modelling.terms.usable import usable_tests
 from thermodata.modelling.trust.checks.of_every_fit import checks
 from thermodata.schema.files.model import Model
@@ -63,8 +63,7 @@ def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bo
                 where=f"response '{response.name}'",
                 expected="the response and the drivers of all effects in one test at least",
                 got="; ".join(why[:_SHOWN]) + ("; ..." if len(why) > _SHOWN else ""),
-                hint="give a test that has all of it the role calibration, or take the effect out whose "
-                "driver no test has",
+                hint=_what_to_give(response, [data.test(*key) for key in keys]),
             )
     if together(bound):
         fitted = fit_together(bound, open_tests, wanted, data, fit_response)
@@ -85,6 +84,16 @@ def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bo
     )
     again = overlaps(data, roles, keys, [response.bound.channel_of for response in responses])
     return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)), overlaps=again)
+
+
+def _what_to_give(response: BoundResponse, tests: Sequence[TestData]) -> str:
+    """What helps where no calibration test has all that a model reads."""
+    if any(has_response(response, test) for test in tests):
+        return "give a test that has all of it the role calibration, or take the effect out whose driver no test has"
+    return (
+        "give a test that has the response the role calibration; a probe in volts has no displacement before it has "
+        "a calibration (a jump test, or kind: scale with a gain in um/V): thermodata ingest says where one is missing"
+    )
 
 
 def _with_its_tests(response: FittedResponse, roles: Roles, fitted_on: frozenset[Key], data: Dataset) -> FittedResponse:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.campaign_channels import Calibration, Channel
+from thermodata.schema.units.conversion import converts
 from thermodata.schema.units.quantity import PROBED
 from thermodata.schema.words.places import called_here, is_known, nearest_place
 from thermodata.schema.words.sentences import with_count
@@ -30,7 +31,14 @@ def unanswered(campaign: Campaign) -> list[str]:
         said.append(
             f"without a place (at: ...): {_listed(nowhere)}; no effect that needs one there will be tried with them"
         )
-    turned = [n for n, c in campaign.channels.items() if _unoriented(c, campaign)]
+    open_signs = [n for n, c in campaign.channels.items() if _unoriented(c, campaign)]
+    volts = [n for n in open_signs if _wants_a_gain(campaign.channels[n])]
+    if volts:
+        said.append(
+            f"no length before a calibration: {_listed(volts)}. A jump test gives gain and sign, or the data sheet: "
+            f"{_sign([campaign.channels[n].axis for n in volts], f'? um/{campaign.channels[volts[0]].unit}')}"
+        )
+    turned = [n for n in open_signs if n not in volts]
     if turned:
         said.append(
             f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them. A jump test tells "
@@ -48,7 +56,7 @@ def unanswered(campaign: Campaign) -> list[str]:
     return said
 
 
-def _sign(axes: Sequence[str | None]) -> str:
+def _sign(axes: Sequence[str | None], gain: str = "1 um/um") -> str:
     """The calibration that says which way a probe looks, of the first of these axes, and what differs of the others."""
     first, *others = dict.fromkeys(axes)
 
@@ -57,10 +65,15 @@ def _sign(axes: Sequence[str | None]) -> str:
 
     more = "".join(f", and {name(a)} with axis: {a or '?'}" for a in others)
     return (
-        f"calibrations: {{{name(first)}: {{kind: scale, axis: {first or '?'}, gain: 1 um/um, facing: ?, "
+        f"calibrations: {{{name(first)}: {{kind: scale, axis: {first or '?'}, gain: {gain}, facing: ?, "
         f"increases_with: ?}}}}{more} ({f'+{first} or -{first}' if first else '+ or - of its axis'}; gap or approach; "
         f"a reading that has the machine's sign already: {f'+{first}' if first else '+ of its axis'}, gap)"
     )
+
+
+def _wants_a_gain(channel: Channel) -> bool:
+    """Whether what a probe sends is no length, and no calibration makes it one."""
+    return channel.calibration is None and channel.unit is not None and not converts(channel.unit, "um")
 
 
 def _unoriented(channel: Channel, campaign: Campaign) -> bool:
