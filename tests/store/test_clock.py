@@ -89,6 +89,7 @@ def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
     assert flags == [(0 if alike else int(Flag.CLOCK_SUSPECT),)]
     assert offset == (pytest.approx(252e9, abs=3e9) if alike else 0)
     assert any("by 2 other tests" in note for note in summary.notes) == alike
+    assert any("; by this test alone: clock not aligned to" in note for note in summary.notes) == alike
     assert any("not aligned" in loss["reason"] for loss in summary.losses) != alike
     assert not ingest(store, path).changed
 

@@ -48,3 +48,13 @@ def test_channels_that_come_and_go_are_named(store: Store, tmp_path: Path) -> No
     assert _said(store, path) == ["channels T_b is gone"]
     path.write_text(before, encoding="utf-8")
     assert _said(store, path) == ["channels T_b is new"]
+
+
+def test_words_that_were_not_there_are_named_as_new(store: Store, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    placed = path.read_text(encoding="utf-8")
+    assert placed.count(", at: bed}") == 1
+    path.write_text(placed.replace(", at: bed}", "}"), encoding="utf-8")
+    ingest(store, path)
+    path.write_text(placed.replace(", at: bed}", ", unit: degC, at: bed}"), encoding="utf-8")
+    assert _said(store, path) == ["channels T_b: new: unit degC, at bed"]

@@ -156,3 +156,11 @@ def test_a_greek_delta_before_a_letter_is_a_difference(name: str) -> None:
     assert (found.quantity, found.axis) == ("displacement", "Z")
     assert words("ΔT front") == "delta t front"
     assert words("Δεδομένα").startswith("δ")
+
+
+@pytest.mark.parametrize(
+    ("signal", "name"),
+    [("ns=2;s=Feed_X", "Feed_X"), ("nsu=urn:x;s=Spindle.T", "Spindle.T"), ("ns=2;s=7", "ns=2;s=7")],
+)
+def test_the_space_of_names_of_a_node_is_no_part_of_its_name(signal: str, name: str) -> None:
+    assert wished_name(signal, guess(signal, None)) == name

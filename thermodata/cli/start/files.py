@@ -83,7 +83,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         f"{counted(made.files, 'file')}, {counted(len(draft.tests), 'test')}, {counted(len(draft.sources), 'source')}, "
         f"{counted(sum(c.said.quantity is not None for c in draft.channels) + len(draft.derived), 'channel')}; "
         f"{counted(made.questions, 'line', 'holds', 'hold')} a question: "
-        f"grep '# ?' {made.campaign}"
+        f"grep '# ? ' {made.campaign}"
     )
     model = _first_model(made)
     session.say(_next_steps(made, model))

@@ -14,6 +14,7 @@ from thermodata.reader.signals.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.schema.units.quantity import CANONICAL_UNIT
 
+_NODE = re.compile(r"(?i)^nsu?=[^;]*;s=(?=.*[^\W\d])")  # of OPC UA: the space of names says nothing of the signal
 _STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
 
@@ -26,7 +27,7 @@ def with_series(signal: Signal) -> str:
 
 def wished_name(signal: str, said: Guess) -> str:
     """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
-    bare = rate_at_end(split_unit(signal)[0])[0]
+    bare = _NODE.sub("", rate_at_end(split_unit(signal)[0])[0])
     parts = [p for p in parts_of(bare.replace("\\", "/")) if p.strip()] or [bare]
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z

@@ -47,7 +47,7 @@ def lent(
             offset_ns = round(median(offsets))
             note = (
                 f"clock by {len(offsets)} other tests, whose offsets are {apart_s:.3g} s apart at most: "
-                f"{offset_ns / 1e9:+.3f} s; in this test alone it is {'; '.join(clock.notes)}"
+                f"{offset_ns / 1e9:+.3f} s; by this test alone: {'; '.join(clock.notes)}"
             )
             # no key: what the others say is asked again at every ingest, for they may change
             found[test][source] = replace(clock, offset_ns=offset_ns, suspect=False, key="", notes=(note,))

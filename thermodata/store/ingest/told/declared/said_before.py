@@ -49,7 +49,11 @@ def _of_one(name: str, was: Any, now: Any) -> Iterator[str]:
             yield f"{name} is {'gone' if now is _ABSENT else 'new'}"
     elif isinstance(was, Mapping) and isinstance(now, Mapping):
         changed = [k for k in dict.fromkeys([*was, *now]) if not _alike(was.get(k), now.get(k))]
-        yield f"{name}: " + " and ".join(_told(k, was.get(k), now.get(k)) for k in changed)
+        new = [k for k in changed if _short(was.get(k)) == "" and _short(now.get(k)) != ""]
+        said = [_told(k, was.get(k), now.get(k)) for k in changed if k not in new]
+        if new:
+            said.append("new: " + ", ".join(f"{k} {_short(now[k]) or ''}".rstrip() for k in new))
+        yield f"{name}: " + " and ".join(said)
     else:
         yield _told(name, was, now)
 
@@ -59,7 +63,7 @@ def _told(name: str, was: Any, now: Any) -> str:
     shown, earlier = (_short(value) for value in (now, was))
     if shown is None or earlier is None:
         return f"{name} is another one"
-    return f"{name} {shown or 'is gone'}, it was {earlier or 'not there'}"
+    return f"{name} {shown or 'is gone'}, it was {earlier}" if earlier else f"new: {name} {shown}"
 
 
 def _short(value: Any) -> str | None:
