@@ -194,7 +194,8 @@ def test_an_answer_ticks_off_its_own_question_and_no_other() -> None:
 
 
 def test_what_no_field_answers_is_told_with_its_line() -> None:
-    assert [(q.line, q.asks) for q in only_in_file(SEVERAL)] == [(7, "one log for many tests?")]
+    by_hand = SEVERAL.replace("one log for many tests?", "calibration? a jump test")
+    assert [(q.line, q.asks) for q in only_in_file(by_hand)] == [(7, "calibration? a jump test")]
     assert only_in_file(TEXT) == []
     twice = TEXT.replace("kind? e.g. spindle", "kind? e.g. spindle; start: as list.csv says?; a door was open?")
     assert {q.name for q in questions(twice)} - {q.name for q in questions(TEXT)} == {"tests.0.start"}
@@ -237,3 +238,34 @@ def test_a_guess_that_is_right_is_ticked_off_as_it_stands() -> None:
     after = filled_in(text, {"channels.T06.at": "rotary.b"})
     assert "at: rotary.b}   # answered: at: rotary.b or table?" in after
     assert not {q.name: q for q in questions(after)}["channels.T06.at"].open
+
+
+@pytest.mark.parametrize(
+    "asks",
+    [
+        "one log for many tests?",
+        "one log for many tests, in parts?",
+        "each file is of the tests that ran during it?",
+    ],
+)
+def test_whose_a_log_is_is_answered_as_it_stands_or_by_other_files(asks: str) -> None:
+    text = SEVERAL.replace("one log for many tests?", asks)
+    assert only_in_file(text) == []
+    asked = {q.name: q for q in questions(text)}["sources.nc.files"]
+    assert (asked.value, asked.open, asked.asks, asked.hint) == ("hall.txt", True, True, asks)
+    after = filled_in(text, {"sources.nc.files": "hall.txt"})
+    assert f"answered: {asks}" in after
+    assert not {q.name: q for q in questions(after)}["sources.nc.files"].open
+    assert 'files: "{test}_hall.txt"' in filled_in(text, {"sources.nc.files": "{test}_hall.txt"})
+
+
+def test_moves_without_a_unit_are_micrometres_and_parts_of_one_are_refused() -> None:
+    after = filled_in(TEXT, {"calibrations.jump_Z.moves": "100, -100, +50 um"})
+    assert 'moves: [100 um, "-100 um", "+50 um"]' in after
+    with pytest.raises(SpecError):
+        filled_in(TEXT, {"calibrations.jump_Z.moves": "0.1, -0.1"})
+
+
+def test_the_hint_to_the_role_of_a_test_names_its_kind() -> None:
+    text = TEXT.replace("# ? kind? e.g. spindle", "# kind sure: name and data")
+    assert {q.name: q for q in questions(text)}["tests.0.role"].hint == "kind other, sure: name and data"

@@ -14,8 +14,9 @@ _DONE = "answered: "
 # how the questions begin that a draft writes behind another one
 _HEADS = (
     r"a difference, not|a limit, or|a set value, not|at: |axis\?|axis: \S+ by|calibration\?|clock: \{|format of the |"
-    r"kind[?:] |names: |one log for many tests\?|period: |quantity: |quantity and unit\?|role: |stands: |start: |"
-    r"start_state: |time: |timezone\?|unit of the time|unit: |what does it measure\?|which way does it count\?"
+    r"kind[?:] |names: |one log for many tests|each file is of |period: |quantity: |quantity and unit\?|role: |"
+    r"stands: |start: |start_state: |time: |timezone\?|unit of the time|unit: |what does it measure\?|"
+    r"which way does it count\?"
 )
 # "facing: ?, increases_with: ?" in the words of a question ends none
 _NEXT = re.compile(rf"(?<=\S\?)[,;] |[,;] (?={_DONE}|{_HEADS})")
@@ -23,6 +24,7 @@ _NEXT = re.compile(rf"(?<=\S\?)[,;] |[,;] (?={_DONE}|{_HEADS})")
 _OF = {
     "at": "at:",
     "axis": "axis[?:]",
+    "files": "one log for many tests|each file is of the tests",
     "format": "format",
     "kind": "kind",
     "period": "period",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from thermodata.schema.files.load import parse_campaign
 from thermodata.schema.strict.lines import Document, Place, parse_document
 from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.units.quantity import CANONICAL_UNIT
+
+_WHOLE = re.compile(r"^([+-]?[1-9]\d*)$")  # whole numbers of no unit are um: no probe goes that many mm
 
 
 def filled_in(text: str, given: Mapping[str, str]) -> str:
@@ -119,4 +122,5 @@ def _with_calibrations(lines: list[str], document: Document, new: Mapping[str, s
 def _written(key: str, answer: str) -> str:
     if key != "moves":
         return scalar(answer)
-    return "[" + ", ".join(scalar(part.strip()) for part in answer.strip("[] ").split(",") if part.strip()) + "]"
+    parts = (_WHOLE.sub(r"\1 um", part.strip()) for part in answer.strip("[] ").split(","))
+    return "[" + ", ".join(scalar(part) for part in parts if part) + "]"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -133,6 +134,8 @@ def asked_places(document: Document, lines: list[str]) -> Iterator[tuple[Place, 
 def _of_source(source: Mapping[str, Any], asks: tuple[str, ...]) -> Iterator[str]:
     if _any("timezone", asks) or "timezone" in source:
         yield "timezone"
+    if _any("files", asks) and isinstance(source.get("files"), str):
+        yield "files"
     time = mapping_of(mapping_of(source, "table"), "time")
     yield from (OF_TIME + key for key in _OF_TIMES if key in time and (time[key] == "unknown" or _any(key, asks)))
 
@@ -178,6 +181,8 @@ def _question(lines: list[str], document: Document, place: Place, key: str) -> Q
     comment = lines[document.line[place] - 1].partition("# ")[2].removeprefix("? ")
     hint = "; ".join(own or [q for q in asked.answered if answers(last_of(key), q)]) or ("" if asked.open else comment)
     hint = hint if kind != "way" else ""  # what the draft says there is how to write it by hand
+    if key == "role" and place[0] == "tests":  # 'kind spectrum, sure: name and data'
+        hint = re.sub(r"^kind (?=sure|guess)", f"kind {document.data['tests'][place[1]].get('kind', '?')}, ", hint)
     about = str(document.data["tests"][place[1]].get("id", place[1])) if place[0] == "tests" else str(place[-1])
     opened = bool(own) or value in ("", "unknown") or (key == "role" and value == "none")
     value = "" if value == "unknown" else value
