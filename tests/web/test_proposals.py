@@ -70,6 +70,19 @@ def test_a_jump_test_is_drawn_with_a_field_for_each_step(jump_lab: Path) -> None
     assert re.findall(r'name="step[^>]+ value="([^"]+)"', again)[2] == "-200 um"
 
 
+def test_the_lines_that_change_are_numbered_and_a_slip_of_a_place_is_told(jump_lab: Path) -> None:
+    client, path = writing(jump_lab), jump_lab / "campaign.yaml"
+    (name,) = [n for n, c in read_document(path).data["channels"].items() if c["quantity"] == "temperature"][:1]
+    form = {"file": str(path), f"answer.channels.{name}.at": "headstok"}
+    text = html.unescape(client.post("/start/preview", form).text)
+    assert f"channel '{name}': no place 'headstok' is known; did you mean 'headstock'?" in text
+    assert "@@" not in text
+    assert re.search(r'<span class="at">line \d+</span>', text)
+    below = re.search(r"any folder below (.*?)\. ", html.unescape(client.get("/start").text))
+    assert below is not None
+    assert below[1] == str(jump_lab.resolve())
+
+
 def test_moves_of_some_steps_only_are_refused(jump_lab: Path) -> None:
     client = writing(jump_lab)
     form = {"file": str(jump_lab / "campaign.yaml"), "step.calibrations.jump_Z.moves.0": "100 um"}

@@ -6,6 +6,7 @@ import contextlib
 import difflib
 import itertools
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from thermodata.schema.files.campaign import Channel
 from thermodata.schema.files.load import parse_campaign
 from thermodata.store.catalogue.campaign_paths import campaign_paths
 from thermodata.store.catalogue.format.create import CATALOGUE
+from thermodata.store.ingest.told.declared.unanswered import unknown_places
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
@@ -29,6 +31,7 @@ from thermodata.web.pages.parts.start_form import answered, form_state
 from thermodata.web.render import desk_of, page
 
 _MOST_BYTES = 4 << 20
+_PLACE = re.compile(r"^@@ -\S+ \+(\d+)(?:,\d+)? @@$")
 _MOST_MODELS = 5
 _MOST_FOLDERS, _MOST_LOOKED_AT = 100, 1_000
 
@@ -45,6 +48,7 @@ def show(request: Request) -> Response:
         title="Start",
         command=command(desk.store_path, *(("init", folder) if text is None else ("ingest", path))),
         folder=folder,
+        within=[own for own in desk.folders if own != desk.store_path.resolve()] or [folder],
         below=_below(folder),
         draft_command=command(desk.store_path, "init", folder),
         elsewhere_command=command(desk.store_path, "workbench", "FOLDER", "--write"),
@@ -163,13 +167,15 @@ async def write(request: Request) -> Response:
 def changes(request: Request, path: Path, before: str, after: str, form: dict[str, str], onward: str) -> Response:
     """What would be written, as the lines that change. onward: where the form goes when they are wanted."""
     lines = list(difflib.unified_diff(before.splitlines(), after.splitlines(), "before", "after", lineterm="", n=0))
+    known = unknown_places(parse_campaign(before))
     return page(
         request,
         "start_diff.html.j2",
         title="",
         command="",
         path=path,
-        lines=lines[2:],
+        lines=[_PLACE.sub(r"line \1", line) for line in lines[2:]],
+        doubts=[said for said in unknown_places(parse_campaign(after)) if said not in known],
         form=form,
         changed=before != after,
         onward=onward,

@@ -18,14 +18,7 @@ _SHOWN = 6
 
 def unanswered(campaign: Campaign) -> list[str]:
     """Sentences for the summary of an ingest."""
-    said = []
-    for name, channel in campaign.channels.items():
-        if channel.at and not is_known(channel.at):
-            near = nearest_place(channel.at)
-            meant = called_here(channel.at) or ((near,) if near is not None else ())
-            if meant:
-                choices = " or ".join(f"'{m}'" for m in meant)
-                said.append(f"channel '{name}': no place '{channel.at}' is known; did you mean {choices}?")
+    said = unknown_places(campaign)
     nowhere = [n for n, c in campaign.channels.items() if c.at is None and c.quantity in _PLACED]
     if nowhere:
         said.append(
@@ -53,6 +46,19 @@ def unanswered(campaign: Campaign) -> list[str]:
         )
     if campaign.tests and all(t.role == "none" for t in campaign.tests):
         said.append("no test has a role: write role: calibration, verification or locked, or name tests in the model")
+    return said
+
+
+def unknown_places(campaign: Campaign) -> list[str]:
+    """A sentence for each channel whose place is a slip of one that is known."""
+    said = []
+    for name, channel in campaign.channels.items():
+        if channel.at and not is_known(channel.at):
+            near = nearest_place(channel.at)
+            meant = called_here(channel.at) or ((near,) if near is not None else ())
+            if meant:
+                choices = " or ".join(f"'{m}'" for m in meant)
+                said.append(f"channel '{name}': no place '{channel.at}' is known; did you mean {choices}?")
     return said
 
 
