@@ -41,6 +41,13 @@ def test_events_between_measuring_phases_become_one_that_says_so() -> None:
     ]
 
 
+def test_spikes_that_no_sample_is_flagged_for_are_told_of_no_test_that_says_when_it_measures() -> None:
+    told = QualityEvent("dZ", "spike", 0, 700, 103, "not flagged: 6.3 % of the samples stand out for 1 to 3 samples")
+    times, none = {"dZ": activity((100, 200), (500, 600))}, {("dZ", "spike"): Activity()}
+    assert join_while_not_measuring([told], times, none) == []
+    assert join_while_not_measuring([told], {}, {}) == [told]
+
+
 def test_the_pieces_in_which_the_mask_comes_do_not_matter() -> None:
     rng = np.random.default_rng(0)
     phases = [(int(a), int(a) + 7) for a in np.sort(rng.choice(990, 40, replace=False))]

@@ -42,5 +42,6 @@ INVALID = (
     | Flag.DUPLICATE_TIME
     | Flag.FOREIGN
 )
+NOT_FLAGGED = "not flagged"  # begins the detail of an event of which no sample has the flag
 OVERRULED = "overruled: "  # begins the detail of an event that was; its reason follows
 CONSTANT = "; by a constant, so what counts from the test's start is sound"  # ends the detail of such an offset

@@ -28,7 +28,7 @@ from thermodata.calibration.quality.sudden.step import Step, offset_steps, stood
 from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, rests
 from thermodata.calibration.quality.value import RunStats, held_runs
 from thermodata.plugin import Bool1D
-from thermodata.schema.flag import Flag
+from thermodata.schema.flag import NOT_FLAGGED, Flag
 from thermodata.schema.units.quantity import STATES
 from thermodata.schema.words.places import is_at_tool
 
@@ -180,7 +180,7 @@ def leaves_for_a_few_samples(seen: Marked) -> None:
         return
     share = 100 * len(where) / len(seen.x)
     why = (
-        f"not flagged: {share:.1f} % of the samples stand out for 1 to 3 samples: measuring phases? say when with "
+        f"{NOT_FLAGGED}: {share:.1f} % of the samples stand out for 1 to 3 samples: measuring phases? say when with "
         "'measuring'"
     )
     first, last = int(t_ns[where[0]]), int(t_ns[where[-1]])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from thermodata.schema.flag import CONSTANT, INVALID, OVERRULED, Flag
+from thermodata.schema.flag import CONSTANT, INVALID, NOT_FLAGGED, OVERRULED, Flag
 
 if TYPE_CHECKING:
     import duckdb
@@ -17,7 +17,7 @@ FAULTY_SHARE = 0.2  # of a test: a channel that lost more of it is no witness
 _FAILED = ("offset", "stuck")
 _THROUGHOUT = 1 - 1e-9
 # events that say nothing against a sensor: a blank between the rows of a slower logger is no loss
-_NO_FAULT = (OVERRULED, "only while not measuring", "not flagged", "no number")
+_NO_FAULT = (OVERRULED, "only while not measuring", NOT_FLAGGED, "no number")
 _COUNTS_NOT = frozenset(f.word for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
 
 

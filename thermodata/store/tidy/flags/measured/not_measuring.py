@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.schema.flag import NOT_FLAGGED
 
 _OF_VALUES = frozenset({"held", "stuck", "saturated", "out_of_range", "spike", "offset"})
 
@@ -57,7 +58,8 @@ def join_while_not_measuring(
     repeats: Mapping[tuple[str, str], Activity] | None = None,
 ) -> list[QualityEvent]:
     """Events of values, of channels that are measured at times only: those that fall wholly between the measuring
-    phases become one event a channel and flag, which says so. The others are left as they are.
+    phases become one event a channel and flag, which says so. The others are left as they are. What is told of a flag
+    that no sample has asks for measuring phases, and is no more told of them.
 
     repeats: by channel and flag, when a measured sample has the flag: of flags that not all samples of an event keep.
     """
@@ -72,7 +74,7 @@ def join_while_not_measuring(
             or bool(times.during(np.array([event.from_ns]), np.array([event.to_ns]))[0])
         ):
             kept.append(event)
-        else:
+        elif not (event.detail or "").startswith(NOT_FLAGGED):
             idle.setdefault((event.channel, event.flag), []).append(event)
     for (channel, flag), some in idle.items():
         kept.append(joined(channel, flag, some, ONLY))
