@@ -129,13 +129,14 @@ def test_what_has_no_field_is_shown_with_its_line_and_counted(tmp_path: Path) ->
     (tmp_path / "campaign.yaml").write_text(
         "schema: thermodata/campaign/1\nid: hall\nmachine:\n  id: M1\nsources:\n"
         "  log: {reader: table, files: hall.txt, table: {time: {format: unknown}}}   # ? format of the dates: dmy or "
-        "mdy? 04/05/2026 may be either; one log for many tests?\n"
+        "mdy? 04/05/2026 may be either; stands: [n]? its cells hold what was written last\n"
         "channels:\n  T: {source: log, signal: T, quantity: temperature, unit: degC, at: axis.b}   # ? at: axis.b?\n"
         "tests:\n  - {id: day1, kind: other, role: calibration}\n"
     )
     text = client_of(tmp_path, write=True)[0].get("/start").text
     assert '<h1 id="asks">3 questions' in text
-    assert "<li>line 6: one log for many tests?</li>" in text
+    assert "<li>line 6: stands: [n]? its cells hold what was written last</li>" in text
+    assert "A coloured frame marks what nobody has answered" in text
     assert 'name="answer.sources.log.table.time.format"' in text
     assert '<input type="checkbox" name="so.channels.T.at"' in text
 
