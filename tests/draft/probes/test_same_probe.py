@@ -131,3 +131,4 @@ def test_signals_that_nothing_tells_of_are_probes_by_their_jump_test(
     assert asked == [*own, f"axis: Z by {named}.tdms"]
     assert probe.said.at == (None if "table" in named else "tcp")
     assert [t.id for t in draft.tests] == ["m0", "m1", "m2"]
+    assert draft.jumps[0].question.endswith(unit or "of a unit that is asked")

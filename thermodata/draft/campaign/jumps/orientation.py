@@ -154,6 +154,7 @@ def _by_jump(name: str, signal: Signal, said: Guess, jump: JumpTest, beside: str
         asked = f"axis: {axis} by {jump.file.path.name}?"
         said = replace(said, axis=axis, sure=False, questions=(*others, asked))
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
+    unit = said.unit or ("of a unit that is asked" if any(q.startswith("unit:") for q in said.questions) else "V")
     alike = f"; the same as for '{jump.moved_with}'" if jump.moved_with else ""
     drafted = DraftJump(
         f"jump_{name}",
@@ -164,7 +165,7 @@ def _by_jump(name: str, signal: Signal, said: Guess, jump: JumpTest, beside: str
         float(f"{jump.dwell_s:.2g}"),
         seen,
         said.unit,
-        "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + alike + beside,
+        "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, unit) + alike + beside,
         jump.file.sheet,
     )
     return Turned(said, drafted.name if axis else None, drafted)
