@@ -110,6 +110,16 @@ def test_a_probe_without_a_unit_is_one_by_its_name_and_has_its_jump_test(tmp_pat
     assert [t.id for t in made.tests] == ["S3000", "S6000"], "a jump test is no test"
 
 
+def test_a_test_says_how_long_it_is_beside_its_kind(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "idle.csv", "dZ [um]", [i / 10 for i in range(2401)])
+    log(tmp_path / "lab" / "spindle.csv", "dZ [um]", [i / 10 for i in range(9001)])
+    made = draft_files(tmp_path / "lab")
+    text = made.campaign.read_text(encoding="utf-8")
+    lines = {t.id: line for t in made.draft.tests for line in text.splitlines() if f"{{id: {t.id}," in line}
+    assert lines["idle"].endswith("; 40 min")
+    assert lines["spindle"].endswith("; 2.5 h")
+
+
 def test_a_jump_test_finds_its_probe_where_each_signal_has_a_stream() -> None:
     def jump(*signals: str) -> JumpTest:
         file = SimpleNamespace(signals=[SimpleNamespace(stream=f"s{i}", name=n) for i, n in enumerate(signals)])

@@ -98,7 +98,16 @@ def _drafted(
     if window is None and (jumps := window_behind_jumps(files)) is not None:
         doubts.append(jumps)
     doubts += range_questions(files)
-    return DraftTest(test, kind, conditions, own, tuple(doubts), measuring, window)
+    return DraftTest(test, kind, conditions, own, tuple(doubts), measuring, window, _length_s(files, window))
+
+
+def _length_s(files: Sequence[RawFile], window: tuple[float, float] | None) -> float | None:
+    """Of the longest of a test's files, whose clocks may differ; None where one was not read to its end."""
+    if window is not None:
+        return window[1] - window[0]
+    ends = [(f.sample.first_ns, f.sample.last_ns) if f.sample.whole else (None, None) for f in files]
+    spans = [(last - first) / 1e9 for first, last in ends if first is not None and last is not None]
+    return max(spans) if spans and len(spans) == len(files) else None
 
 
 def _with_note(kind: Kind, conditions: Mapping[str, str], note: Note) -> tuple[Kind, dict[str, str], list[str]]:

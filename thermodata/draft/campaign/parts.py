@@ -80,7 +80,7 @@ class DraftJump:
 @dataclass(frozen=True, slots=True)
 class DraftTest:
     """tests[]: files: source -> path or paths, where the source's pattern does not find them; window: of a table that
-    holds several, since its first row [s]."""
+    holds several, since its first row [s]; length_s: None where its files were not read to their ends."""
 
     id: str
     kind: Kind
@@ -89,6 +89,7 @@ class DraftTest:
     doubts: tuple[str, ...] = ()
     measuring: Measuring | None = None
     window: tuple[float, float] | None = None
+    length_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

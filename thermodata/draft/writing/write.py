@@ -224,6 +224,8 @@ def _test_comment(t: DraftTest) -> str:
     said = f"kind {t.kind.comment}" if t.kind.comment else ""
     if t.measuring:
         said = "; ".join(filter(None, (said, f"measuring guess: {t.measuring.why}")))
+    if said and t.length_s:
+        said += f"; {t.length_s / 3600:.1f} h" if t.length_s >= 3600 else f"; {t.length_s / 60:.2g} min"
     return "; ".join(filter(None, (f"? {'; '.join(asked)}" if asked else "", said)))
 
 
