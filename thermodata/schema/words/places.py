@@ -8,8 +8,11 @@ candidates named. Any other place is allowed: it stays generic, and no effect th
 from __future__ import annotations
 
 from collections.abc import Sequence
+from difflib import get_close_matches
 
 from thermodata.errors import nearest
+
+_SLIP = 0.67  # of a part's letters: 'air' has two of three of 'far'
 
 PLACES: dict[str, str] = {
     "tcp": "tool centre point: where a displacement counts",
@@ -246,4 +249,4 @@ def nearest_place(place: str) -> str | None:
         return nearest(place, known)
     parts = {p.rpartition(".")[2]: p for p in known if p.rpartition(".")[0] == whole}
     close = nearest(part, list(parts))
-    return whole if close is None else parts[close]
+    return parts[close] if close is not None and get_close_matches(part, [close], cutoff=_SLIP) else whole
