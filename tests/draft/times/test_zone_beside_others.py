@@ -160,6 +160,28 @@ def test_a_draft_made_anew_keeps_each_zone_that_was_declared(tmp_path: Path, tor
     assert not any(q.startswith("timezone?") for s in draft.sources for q in s.questions)
 
 
+def test_a_zone_of_one_source_is_not_taken_for_another(tmp_path: Path) -> None:
+    of_two_clocks(tmp_path)
+    draft_files(tmp_path)
+    path = tmp_path / "campaign.yaml"
+    declare(path, {"ctrl": "UTC"})
+    sources = draft_files(tmp_path, force=True).draft.sources
+    assert {str(s.files): s.timezone for s in sources} == {"{test}_ctrl.csv": "UTC", "{test}_probe.txt": None}
+    (asked_of,) = [s for s in sources if any(q.startswith("timezone?") for q in s.questions)]
+    assert asked_of.files == "{test}_probe.txt"
+
+
+def test_a_clock_and_a_table_that_a_draft_made_anew_drops_are_asked_of(tmp_path: Path) -> None:
+    of_two_clocks(tmp_path)
+    draft_files(tmp_path)
+    path = tmp_path / "campaign.yaml"
+    declare(path, {"ctrl": "UTC, clock: {offset: 7 min}, table: {stands: [2], time: {column: unknown}}"})
+    sources = draft_files(tmp_path, force=True).draft.sources
+    asked_of = {str(s.files): q for s in sources for q in s.questions if "as in the campaign file before?" in q}
+    assert list(asked_of) == ["{test}_ctrl.csv"]
+    assert asked_of["{test}_ctrl.csv"].startswith("clock: {offset: 7 min}, table: {stands: [2]}, as in")
+
+
 def test_a_zone_goes_with_the_files_whatever_their_source_is_called(tmp_path: Path) -> None:
     of_two_clocks(tmp_path)
     draft_files(tmp_path)

@@ -57,6 +57,8 @@ def _questions(group: Group, beside: BesideSource, *, zone_known: bool) -> Itera
     yield from (hinted(a, group, beside.groups) for a in group.asks)
     if not zone_known and (asked := zone_question(group, beside.groups, beside.folder)):
         yield asked + beside.before.said()
+    aligned = beside.aligned.get(group.source)
+    yield beside.before.dropped(group, clock=aligned is not None and aligned.offset_s is not None)
     yield from _of_clocks(group, beside)
     yield from group.questions
     yield from one_or_many(group, beside.groups, beside.table.rows if beside.table else ())

@@ -1,4 +1,5 @@
-"""The zones that the campaign file before a draft declared, each for the source that it was of."""
+"""What the campaign file before a draft declared of clocks and tables, each for the source that it was of: zones, which
+are kept, and what is not."""
 
 from __future__ import annotations
 
@@ -8,8 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import yaml
+
 from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.errors import ThermodataError
+from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.reader.times.zone import zone as zone_called
 from thermodata.schema.files.tests_from import pattern_of
 from thermodata.schema.strict.lines import read_document
@@ -17,26 +21,42 @@ from thermodata.schema.words.sentences import with_count
 
 _LINE = re.compile(r"""^[^#\n]*?(?:\b(\w+):\s*\{[^#\n]*)?\btimezone:\s*["']?([\w/+-]+)""", re.MULTILINE)
 _SHOWN = 4
+_NOT_KEPT = ("clock", "table", "options")  # of a source, which a draft makes by itself, and may make otherwise
 
 
 @dataclass(frozen=True, slots=True)
 class ZonesBefore:
-    """zones: source -> its zone, '' where it can't be told; files: source -> its patterns, and those of its tests."""
+    """zones: source -> its zone, '' where it can't be told; files: source -> its patterns, and those of its tests;
+    declared: source -> its keys of `_NOT_KEPT`."""
 
     zones: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    declared: Mapping[str, Mapping[str, Mapping[str, Any]]] = field(default_factory=dict)
 
     def of(self, group: Group) -> str | None:
         """The zone that was declared for the files of a source: by the source that they were of, whatever it is called
-        now, else by its name; of a file with one zone in all, that one. None where none was."""
+        now, else by its name; of a file that names no files, with one zone in all, that one. None where none was."""
         every = set(self.zones.values())
-        if len(every) < 2:
+        if len(every) < 2 and not self.files:
             return next(iter(every), None)
+        return self.zones.get(self._source_of(group))
+
+    def dropped(self, group: Group, clock: bool) -> str | None:
+        """What to ask of what was declared for a source and is not in its draft; None where nothing was. clock: whether
+        the draft declares its clock."""
+        had = dict(self.declared.get(self._source_of(group), {}))
+        if clock:
+            had.pop("clock", None)
+        own = {**had, "table": {k: v for k, v in had.get("table", {}).items() if group.table.get(k) != v}}
+        said = [f"{key}: {_flow(value)}" for key, value in own.items() if value]
+        return f"{', '.join(said)}, as in the campaign file before? a draft does not keep it" if said else None
+
+    def _source_of(self, group: Group) -> str:
+        """The source that had the files of a group; its own name where none had them."""
         paths = [str(f.path) for f in (*group.files, *group.calibrations)]
         had = {s: sum(any(_fits(p, path) for p in own) for path in paths) for s, own in self.files.items()}
         most = max(had, key=lambda s: (had[s], s == group.source), default="")
-        name = most if had.get(most) else group.source
-        return self.zones.get(name)
+        return most if had.get(most) else group.source
 
     def said(self) -> str:
         """What a question adds where it asks for a zone though some were declared; '' where none was."""
@@ -60,6 +80,7 @@ def zones_before(path: Path) -> ZonesBefore:
     sources = data.get("sources")
     zones: dict[str, str] = {}
     files: dict[str, tuple[str, ...]] = {}
+    declared: dict[str, dict[str, dict[str, Any]]] = {}
     for name, spec in (sources if isinstance(sources, dict) else {}).items():
         if not isinstance(spec, dict):
             continue
@@ -67,10 +88,11 @@ def zones_before(path: Path) -> ZonesBefore:
         for test in _listed(data.get("tests")):
             own += _listed(test["files"].get(name)) if isinstance(test, dict) and _is_dict(test.get("files")) else []
         files[str(name)] = tuple(str(p) for p in own)
+        declared[str(name)] = {key: _answered(spec[key]) for key in _NOT_KEPT if _is_dict(spec.get(key))}
         zone = spec.get("timezone")
         if isinstance(zone, str) and is_zone(zone):
             zones[str(name)] = zone
-    return ZonesBefore(zones, files)
+    return ZonesBefore(zones, files, declared)
 
 
 def is_zone(name: str) -> bool:
@@ -80,6 +102,17 @@ def is_zone(name: str) -> bool:
     except ThermodataError:
         return False
     return True
+
+
+def _answered(spec: Mapping[str, Any]) -> dict[str, Any]:
+    return {str(k): v for k, v in spec.items() if UNKNOWN not in _flow(v)}
+
+
+def _flow(value: Any) -> str:
+    """A value as one line of YAML."""
+    return yaml.safe_dump(value, default_flow_style=True, width=10_000, sort_keys=False, allow_unicode=True).partition(
+        "\n"
+    )[0]
 
 
 def _fits(pattern: str, path: str) -> bool:
