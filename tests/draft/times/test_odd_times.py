@@ -84,8 +84,14 @@ def test_a_time_in_an_odd_spelling_is_drafted_as_no_channel(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("columns", "proposed"),
     [
-        ("Nr;Status;Laufwert;T1 [°C]", "is 'Laufwert' the time? then time: {column: 3, unit: s}"),
-        ("Nr;Status;Stufe;T1 [°C]", "is 'Nr' the time? then time: {column: 1, unit: s}"),
+        (
+            "Nr;Status;Laufwert;T1 [°C]",
+            "'Laufwert' the time? then time: {column: 3, unit: unknown} and, for unknown, s, min",
+        ),
+        (
+            "Nr;Status;Stufe;T1 [°C]",
+            "is 'Nr' the time? then time: {column: 1, unit: unknown} and, for unknown, s, min",
+        ),
     ],
 )
 def test_the_column_that_is_proposed_for_the_time_is_none_that_numbers_the_rows(
@@ -96,6 +102,42 @@ def test_the_column_that_is_proposed_for_the_time_is_none_that_numbers_the_rows(
     (tmp_path / "log.csv").write_text("\n".join([columns, *rows, ""]), "utf-8")
     (source,) = draft_files(tmp_path).draft.sources
     assert any(proposed in q for q in source.questions)
+
+
+def written_under(folder: Path, head: str) -> Path:
+    path = folder / "log.csv"
+    path.write_text("\n".join([f"{head};T1 [°C]", *(f"{k / 3:.4f};{20 + k % 9}.5" for k in range(60)), ""]), "utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("head", "unit"),
+    [("Minuti", "min"), ("Min.", "min"), ("Minuty", "min"), ("hodiny", "h"), ("Ore", "h"), ("経過分", "min")],
+)
+def test_a_column_named_by_its_unit_is_proposed_in_it(tmp_path: Path, head: str, unit: str) -> None:
+    written_under(tmp_path, head)
+    (source,) = draft_files(tmp_path).draft.sources
+    assert any(q.endswith(f"is '{head}' the time? then time: {{column: 1, unit: {unit}}}") for q in source.questions)
+
+
+@pytest.mark.parametrize(
+    ("head", "seconds"),
+    [
+        ("Čas (minuty)", 60),
+        ("Čas v minutách", 60),
+        ("Tempo (minuti)", 60),
+        ("Tiempo en minutos", 60),
+        ("时间(分钟)", 60),
+        ("Время (минуты)", 60),
+        ("t(min.)", 60),
+        ("Tempo (ore)", 3600),
+        ("Zeit in Sekunden", 1),
+    ],
+)
+def test_units_of_time_are_words_of_many_languages(tmp_path: Path, head: str, seconds: float) -> None:
+    table = delimited.open_table(written_under(tmp_path, head), Source())
+    assert [table.layout.names[i] for i in table.layout.time] == [head]
+    assert [g.seconds for g in table.layout.groups] == [seconds]
 
 
 @pytest.mark.parametrize("head", ["Czas [s]", "Tijd [s]", "Tid (s)", "Ora [s]", "Время [s]", "t_stamp [s]"])

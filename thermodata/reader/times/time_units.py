@@ -15,6 +15,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 from thermodata.reader.times.since import count_in, since
+from thermodata.reader.times.time_words import UNIT_OF_WORD
 from thermodata.reader.times.zone import NAT
 
 _DAY = 86400.0
@@ -162,6 +163,7 @@ def known_unit(text: str) -> str | None:
     """A unit of time, or a count from a date, by its name here: 'excel' of '[OLE]'. None where it is none."""
     low = text.strip().strip("[]()").strip().lower()
     low = _ALSO.get(low, low)
+    low = low if low in SECONDS else UNIT_OF_WORD.get(low.removesuffix("."), low)
     if low not in SECONDS and (stated := count_in(low)) is not None:
         return stated
     return low if low in SECONDS or low in EPOCHS else None

@@ -28,6 +28,7 @@ from thermodata.reader.text.times.several_cells.date_parts import declared_parts
 from thermodata.reader.text.times.several_cells.gps_weeks import find_weeks
 from thermodata.reader.times.open_questions import UNKNOWN, unit_question
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, found_epoch
+from thermodata.reader.times.time_words import unit_named
 
 _ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
 COUNTERS = {"millis": "ms", "micros": "us"}  # by the names that an Arduino has for them
@@ -125,10 +126,12 @@ def time_question(seen: FirstRows) -> QuestionError | None:
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     low = seen.names[place].strip().lower().removesuffix("()")
     low = "d" if low in DAYS_OF_YEAR else low
-    unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
+    named = low if low in SECONDS else unit_named(seen.names[place])
+    unit = epoch or COUNTERS.get(low) or named or ("ms" if rolls else UNKNOWN)
     also = ", which begins anew behind 2^32" if rolls else ""
-    column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
-    then = f"time: {column}" + (", and clock: {resets: allow} beside table" if rolls else "")
+    column = f"{{column: {1 if rising is None else place + 1}, unit: {UNKNOWN if rising is None else unit}}}"
+    which = " and, for unknown, s, min or h" if unit == UNKNOWN else ""
+    then = f"time: {column}{which}" + (", and clock: {resets: allow} beside table" if rolls else "")
     other = f"; or is '{seen.names[place]}' the time{also}? then {then}" if rising is not None else ""
     return QuestionError(
         "no time column found",

@@ -8,9 +8,11 @@ from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.times.since import count_in
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, known_unit
+from thermodata.reader.times.time_words import UNIT_OF_WORD
 
 _UNIT_BEHIND = re.compile(
-    r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
+    r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+(?:in|en|v|w|i)\s+|\s*[/,:]\s*|[ _.]+)"
+    r"(?P<unit>[^\W\d_]{1,10})\.?$"
 )
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 _BRACKETS = re.compile(r"^(?P<name>.*\S)\s*[(\[](?P<unit>[^()\[\]]+)[)\]]$")
@@ -34,7 +36,7 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
     if match is None or not TIME_WORD.match(match["word"]):
         return None
     low = match["unit"].lower()
-    return low if low in SECONDS else None
+    return low if low in SECONDS else UNIT_OF_WORD.get(low)
 
 
 def is_time_header(header: str, unit: str | None = None) -> bool:
@@ -74,4 +76,7 @@ def _split(header: str) -> tuple[str, str | None]:
         return "time", stated
     name, unit = split_unit(header)
     match = _BRACKETS.match(name.strip()) if unit is None else None
-    return (match["name"], match["unit"]) if match and known_unit(match["unit"]) in EPOCHS else (name, unit)
+    known = None if match is None else known_unit(match["unit"])
+    if match is None or known is None or (known not in EPOCHS and TIME_WORD.match(match["name"]) is None):
+        return name, unit
+    return match["name"], match["unit"]
