@@ -136,6 +136,32 @@ def test_a_quality_of_16_bit_is_none_of_opc_ua(tmp_path: Path, name: str, bad: l
     assert [k for k, flag in enumerate(flags) if flag] == ([*range(0, 40, 3)] if told else [])
 
 
+FAULTS = {"Error": ("0", "3001"), "Fehlercode": ("0", "1200"), "Fault": ("", "sensor break")}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+@pytest.mark.parametrize("tag", ["Point", "Ch"])
+def test_a_column_of_faults_flags_its_row(tmp_path: Path, name: str, tag: str) -> None:
+    none, fault = FAULTS[name]
+    rows = [
+        f"{point};2026-03-02 08:00:{k:02d};{850 if k == 7 else 20 + k / 10};°C;{fault if k == 7 and p else none}\n"
+        for k in range(40)
+        for p, point in enumerate(("T_bed", "T_front") if tag == "Point" else ("10", "11"))
+    ]
+    path = written(tmp_path, f"{tag};Time;Value;Unit;{name}\n" + "".join(rows), "h.csv")
+    source = Source(timezone="UTC", table=None if tag == "Point" else {"series": ["Ch"]})
+    data = load(Reader(), path, source)
+    flags = [data.flags[key] for key in data.values if key[1] in ("T_bed", "T_front") or "Value" in key[1]]
+    assert [np.flatnonzero(each).tolist() for each in flags] == [[], [7]]
+    assert any(f"'{name}' tells the faults of" in note for note in Reader().describe(path, source).notes)
+
+
+def test_an_error_that_is_a_length_is_no_fault(tmp_path: Path) -> None:
+    rows = [f"X;2026-03-02 08:00:{k:02d};{20 + k / 10};{k % 3 / 8}\n" for k in range(40)]
+    data = load(Reader(), written(tmp_path, "Tag;Time;Value;Error\n" + "".join(rows), "h.csv"), Source(timezone="UTC"))
+    assert not any(flags.any() for flags in data.flags.values())
+
+
 @pytest.mark.parametrize("tag", ["tagid", "tagpath"])
 @pytest.mark.parametrize("none", ["", "NULL"])
 def test_a_value_stands_in_the_column_of_its_type(tmp_path: Path, tag: str, none: str) -> None:

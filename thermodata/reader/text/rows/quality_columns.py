@@ -10,15 +10,18 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Array
+from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.signals.interleaved import bare_header
 from thermodata.reader.text.cells.values.number import of_either_mark, to_bool
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.cells.values.status import (
     BAD,
+    are_faults,
     are_qualities,
     is_good,
     is_no_fault,
     is_severity,
+    names_faults,
     tells_quality,
     zero_is_good,
 )
@@ -65,7 +68,7 @@ def quality_pairs(
         if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
             found[value] = name, (match.groupdict().get("word") or "quality").casefold()
     pairs = _with_zeros(found, columns, told)
-    for value, name in _beside(columns, "fault", measured).items():
+    for value, name in {**_beside(columns, "fault", measured), **_faults_of_row(columns)}.items():
         pairs.setdefault(value, (name, True))
     for value, name in _beside(columns, "state", measured).items():
         if not _is_a_switch(columns[name]) and _are_qualities(columns, name):
@@ -77,7 +80,8 @@ def second_pairs(
     columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str]
 ) -> dict[str, tuple[str, bool]]:
     """The same of values that have a quality in `pairs`, and their faults, or a quality of the whole row, too."""
-    faults = {value: (name, True) for value, name in _beside(columns, "fault", measured).items()}
+    beside = {**_beside(columns, "fault", measured), **_faults_of_row(columns)}
+    faults = {value: (name, True) for value, name in beside.items()}
     found = _with_zeros(_of_bare(columns), columns, told) | faults
     return {value: own for value, own in found.items() if pairs[value] != own}
 
@@ -116,7 +120,7 @@ def _is_a_switch(cells: Sequence[str]) -> bool:
 def tells_faults(name: str) -> bool:
     """Whether a column says the faults of another: 0 is none, and all else one."""
     match = _BESIDE.match(name)
-    return match is not None and match["fault"] is not None
+    return names_faults(bare_header(name)) if match is None else match["fault"] is not None
 
 
 def _beside(
@@ -137,6 +141,13 @@ def _beside(
         if numbers or (match["fault"] is None and are_qualities(codes, name)) or match["fault"]:
             found[value] = name
     return found
+
+
+def _faults_of_row(columns: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """The one column of a long table that is called a value -> the one that is called its fault and no more."""
+    values = [name for name in columns if bare_header(name) in VALUE_WORDS]
+    faults = [name for name, cells in columns.items() if are_faults(map(clean, cells), bare_header(name))]
+    return {values[0]: faults[0]} if len(values) == 1 and len(faults) == 1 else {}
 
 
 def _codes(cells: Sequence[str]) -> list[str]:

@@ -13,7 +13,14 @@ from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.cells.values.number import is_empty
 from thermodata.reader.text.cells.values.quotes import clean
-from thermodata.reader.text.cells.values.status import are_qualities, is_severity, tells_quality, zero_is_good
+from thermodata.reader.text.cells.values.status import (
+    are_faults,
+    are_qualities,
+    is_no_fault,
+    is_severity,
+    tells_quality,
+    zero_is_good,
+)
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times.one_cell import timestamp
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
@@ -31,7 +38,7 @@ class Layout:
     those that name the same in all that was looked at; status: None where there is none; zero_good: whether its code 0
     is, None where the codes do not tell; annotated: lines that begin with '#' are none of it; unread: names of columns
     of numbers that differ and are none of these; said: what their header says of the times; more: the same of further
-    values of each row, `Kanal;Wert;Kanal;Wert`."""
+    values of each row, `Kanal;Wert;Kanal;Wert`; faults: columns that say the faults of a row, of which 0 is none."""
 
     delimiter: str
     row: int
@@ -50,12 +57,15 @@ class Layout:
     said: Times
     unread: tuple[str, ...] = ()
     more: tuple[Layout, ...] = ()
+    faults: tuple[int, ...] = ()
 
     @property
     def wanted(self) -> set[int]:
         """The columns that say something of an event."""
         maybe = {k for k in (self.status, self.unit) if k is not None}
-        return {*self.times, *self.tags, self.value, *self.typed, *maybe}.union(*(each.wanted for each in self.more))
+        return {*self.times, *self.tags, self.value, *self.typed, *self.faults, *maybe}.union(
+            *(each.wanted for each in self.more)
+        )
 
     @property
     def status_name(self) -> str:
@@ -84,6 +94,11 @@ class Layout:
             return tags[0]
         known = self.known
         return [known[e] if e in known else "/".join(filter(None, e)) for e in zip(*tags, strict=True)]
+
+    def faulty(self, columns: dict[int, list[str | None]], n: int) -> list[bool]:
+        """Whether each of n rows says a fault, by the cells of each wanted column."""
+        each = ([not is_no_fault(c or "") for c in columns[k]] for k in self.faults)
+        return [any(row) for row in zip(*each, strict=True)] if self.faults else [False] * n
 
     def is_header(self, line: str) -> bool:
         """Whether a line repeats the header, or is an annotation: no loss."""
@@ -193,7 +208,8 @@ def _headed_by(
     ]
     statuses = list(_qualities(header.names, body))
     every = (fields(text, delimiter) for text in (*lines[row + 1 :], *later))
-    series = _series(header, every, form, {*units, *statuses})
+    faults = [k for k, n in enumerate(header.names) if k not in taken and are_faults((clean(c[k]) for c in body), n)]
+    series = _series(header, every, form, {*units, *statuses, *faults})
     if _is_wide(header, series):
         return None
     found = Layout(
@@ -213,6 +229,7 @@ def _headed_by(
         annotated=header.influx,
         said=header.said,
         unread=tuple(header.raw[k] for k in series.unread),
+        faults=tuple(faults),
     )
     return replace(found, more=_more(found, header.pairs, units, statuses))
 

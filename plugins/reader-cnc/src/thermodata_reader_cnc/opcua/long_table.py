@@ -69,9 +69,9 @@ def _events(
         lines = data.split(b"\n")
         texts.update({k: lines[k - line].decode("utf-8", "replace").rstrip("\r") for k in undated})
     losses, end = _not_rows(layout, texts, rows.nul, name)
-    of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0])
+    of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], layout.faulty(columns, rows.n))
     parts = [_parts(each, columns, rows.n) for each in (layout, *layout.more)]
-    for number, time, good, stamp, *told in zip(*of_row, *parts, strict=True):
+    for number, time, good, stamp, faulty, *told in zip(*of_row, *parts, strict=True):
         while losses and losses[0][0] <= number:
             yield losses.pop(0)[1]
         if end is not None and number >= end:
@@ -81,7 +81,7 @@ def _events(
                 if value or not layout.more:
                     yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
                 continue
-            flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
+            flag = (0 if stamp else int(Flag.CLOCK_SUSPECT)) | (BAD if faulty else 0)
             if status is not None and not is_good(status, bool(layout.zero_good), status_name):
                 flag |= BAD
             if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
@@ -173,6 +173,10 @@ def _look(path: Path, source: Source) -> _Look:
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
     ends = (first.rest or first.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, layout.delimiter)] for line in ends)
+    named = [clean(c) for c in fields(layout.header, layout.delimiter)]
+    notes += [
+        f"'{named[k]}' tells the faults of its row: rows on which it is not 0 do not count" for k in layout.faults
+    ]
     if layout.unread:
         notes.append(f"not read, beside the value: {', '.join(repr(name) for name in layout.unread)}")
     return _Look(

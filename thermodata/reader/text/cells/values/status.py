@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from typing import Any
@@ -36,6 +37,8 @@ _BAD_WORDS = ("bad", "schlecht", "invalid", "false")
 _SEVERITY = re.compile(r"(?i)(?:^|[ ._:/-])(?:alarm[ _]?)?(?:severity|sevr)(?:#\d+)?$")
 _MEASURED = frozenset({"none", "no_alarm", "minor", "minor_alarm", "major", "major_alarm"})  # beyond a limit, perhaps
 _SEVERITIES = _MEASURED | {"invalid", "invalid_alarm", "undefined", "disconnected"}
+_FAULTS = re.compile(r"(?:err(?:or)?s?|fault|fehler|chyba)(?:code|flag|nr|no)?")
+_MOST_FAULTS = 16  # different codes
 _NO_FAULT = ("false", "ok", "none", "no", "no error", "good", "-", "nein", "kein", "keine", "falsch")
 _INITIAL = 133  # the first value of Wonderware's answer, whose quality is 0 (good), 1 (bad), 16 (doubtful) or this
 _GOOD = frozenset({0, 1, _INITIAL, *range(192, 220), 248, 249, 252})  # somewhere
@@ -159,3 +162,19 @@ def is_no_fault(text: str) -> bool:
     """Whether a cell of a column of faults says none: 0, or a word for it; nothing at all too."""
     bare = text.strip().casefold()
     return not bare or bare in _NO_FAULT or _code(bare) == 0
+
+
+def names_faults(name: str) -> bool:
+    """Whether a column is called faults and no more, by its bare name."""
+    return _FAULTS.fullmatch(name) is not None
+
+
+def are_faults(cells: Iterable[str], name: str) -> bool:
+    """Whether a column of long tables says the faults of its row, by its bare name ("errorcode"): none of most, and
+    whole numbers or words, few of them; an error of a path is a length."""
+    if not names_faults(name):
+        return False
+    codes = [code for code, _ in Counter(cell.strip() for cell in cells).most_common()]
+    numbers = [to_bool(c) is None and of_either_mark(c) for c in codes]
+    readings = any(n and (n < 0 or n % 1) for n in numbers)
+    return 0 < len(codes) <= _MOST_FAULTS and is_no_fault(codes[0]) and not readings
