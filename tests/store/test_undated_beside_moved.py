@@ -46,3 +46,19 @@ def test_an_offset_of_the_dated_log_moves_both(
     turns = float(test.t_s[test.values["n"] > 3000][0]) / 60
     warms = float(test.t_s[test.values["T_b"] > 29][0]) / 60
     assert warms - turns == later_min
+
+
+@pytest.mark.parametrize(
+    ("start", "zone", "told"),
+    [("2026-05-11 08:00", "", True), ("2026-05-11 08:00", ", timezone: UTC", False), ("2026-05-11T08:00Z", "", False)],
+)
+def test_a_start_that_names_no_zone_is_told(
+    tmp_path: Path, installed_readers: None, start: str, zone: str, told: bool
+) -> None:
+    daq = "".join(f"{60 * m};20.{m % 7}\n" for m in range(180))
+    (tmp_path / "a_daq.csv").write_text("time [s];T\n" + daq)
+    text = "\n".join(line for line in CAMPAIGN.splitlines() if "plc" not in line).replace("OF_DAQ", zone)
+    path, store = tmp_path / "campaign.yaml", Store(tmp_path / "s.store", create=True)
+    path.write_text(text.replace("{id: a,", f'{{id: a, start: "{start}",') + "\n")
+    said = "a: its start names no zone, and no source declares one: taken as UTC; set timezone: of a source, or"
+    assert any(n.startswith(said) for n in ingest(store, path).notes) == told

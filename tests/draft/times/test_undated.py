@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
@@ -222,3 +223,24 @@ def test_words_tell_the_pass_of_logs_in_the_hour_that_repeats(
         (tmp_path / f"{name}.csv").write_text(f"{head}{rows}\n")
     (asked,) = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if q.startswith("timezone?")]
     assert all(part in asked for part in said)
+
+
+def test_the_zone_of_a_start_is_asked_once_and_kept(tmp_path: Path) -> None:
+    rows = "\n".join(["t [s],{}", *(f"{10 * k},{20 + k / 90:.3f}" for k in range(90)), ""])
+    for run in ("2026-04-14 08-30-00", "2026-04-15 09-00-00"):
+        (tmp_path / run).mkdir()
+        for name in ("T_bed [degC]", "T_hall [degC]"):
+            (tmp_path / run / f"{name[:6].strip()}.txt").write_text(rows.replace("{}", name))
+
+    def zones(force: bool) -> list[str]:
+        sources = draft_files(tmp_path, force=force).draft.sources
+        return [q for s in sources for q in s.questions if q.startswith("timezone?")]
+
+    (found,) = zones(False)
+    assert "the start of 2026-04-14 08-30-00 is a local time, and names no zone; taken as UTC" in found
+    path = tmp_path / "campaign.yaml"
+    path.write_text(
+        re.sub(r"(timezone: )?}( +# \? timezone\?)", r", timezone: Europe/Prague}\2", path.read_text(), count=1)
+    )
+    assert zones(True) == []
+    assert path.read_text().count("timezone: Europe/Prague}") == 1

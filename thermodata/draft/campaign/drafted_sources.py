@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from thermodata.draft.folder.into_sources.sources import Group
 from thermodata.draft.folder.into_sources.two_formats import two_formats
 from thermodata.draft.times.clocks import Alignment, repeats_question, set_back_question, start_question
 from thermodata.draft.times.hints import hinted
+from thermodata.draft.times.zone_of_start import zone_of_start_question
 from thermodata.draft.times.zones import zone_as_before, zone_question
 from thermodata.draft.times.zones_before import ZonesBefore
 
@@ -31,6 +32,7 @@ class BesideSource:
     table: TestTable | None
     ignored: Sequence[tuple[str, str]]
     before: ZonesBefore
+    started: Collection[str] = ()
 
 
 def drafted_sources(beside: BesideSource) -> tuple[DraftSource, ...]:
@@ -57,6 +59,8 @@ def _questions(group: Group, beside: BesideSource, *, zone_known: bool) -> Itera
     yield from (hinted(a, group, beside.groups) for a in group.asks)
     if not zone_known and (asked := zone_question(group, beside.groups, beside.folder)):
         yield asked + beside.before.said()
+    if not zone_known:
+        yield zone_of_start_question(group, beside.groups, beside.started)
     aligned = beside.aligned.get(group.source)
     yield beside.before.dropped(group, clock=aligned is not None and aligned.offset_s is not None)
     yield from _of_clocks(group, beside)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
 from thermodata.draft.campaign.among_channels.asked_once import asked_once
@@ -47,7 +48,9 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     of_groups = _channels(groups, of_probes)
     keyed = of_groups.keyed
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    beside = BesideSource(folder, groups, aligned, table, found.ignored, before)
+    tests = drafted_tests(folder, groups, table, keyed, sorted_out.texts, aligned)
+    started = [t.id for t in tests if t.kind.start is not None and datetime.fromisoformat(t.kind.start).tzinfo is None]
+    beside = BesideSource(folder, groups, aligned, table, found.ignored, before, started)
     sources = asked_once(drafted_sources(beside), groups)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)
@@ -58,7 +61,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        drafted_tests(folder, groups, table, keyed, sorted_out.texts, aligned),
+        tests,
         table,
         left_out,
         found.damaged,

@@ -176,9 +176,11 @@ def _held(file: RawFile, start_ns: int, begin_ns: int, end_ns: int | None) -> fr
 
 
 def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> str | None:
-    """The zone that the campaign file before declared, for a source that logs local times and that nothing contradicts;
-    else None."""
-    if zone is None or not any(f.local for f in group.files):
+    """The zone that the campaign file before declared, for a source that logs local times and that nothing contradicts,
+    or without dates, of whose starts it is; else None."""
+    if zone is None or all(f.recording.is_undated for f in group.files):
+        return zone
+    if not any(f.local for f in group.files):
         return None
     each = _each_ahead(group, groups) or ()
     more = _as_well(each) if each else frozenset()

@@ -58,9 +58,18 @@ def start_ns(start: str, plan: TestPlan, source: SourcePlan | None = None) -> in
     if moment.tzinfo is not None:
         moment, zone = moment.astimezone(UTC), None
     else:
-        asked = [*([source] if source else []), *plan.reference, *plan.sources.values()]
-        zone = next((s.spec.timezone for s in asked if s.spec.timezone is not None), None)
+        zone = _zone_of_start(plan, source)
     return int(local_to_utc_ns(np.array([np.datetime64(moment.replace(tzinfo=None), "ns")]), zone)[0][0])
+
+
+def names_no_zone(start: str, plan: TestPlan) -> bool:
+    """Whether neither a declared start names its offset, nor any source of the test its zone."""
+    return datetime.fromisoformat(start).tzinfo is None and _zone_of_start(plan, None) is None
+
+
+def _zone_of_start(plan: TestPlan, source: SourcePlan | None) -> str | None:
+    asked = [*([source] if source else []), *plan.reference, *plan.sources.values()]
+    return next((s.spec.timezone for s in asked if s.spec.timezone is not None), None)
 
 
 def is_relative(source: SourcePlan) -> bool:

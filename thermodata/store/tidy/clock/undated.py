@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.reader.times.step_back import in_words
 from thermodata.reader.times.zone import utc_offset_ns
 from thermodata.store.tidy.clock.beside import by_times_of_day
-from thermodata.store.tidy.clock.source_clock import Clock, first_ns, is_relative, last_ns, start_ns
+from thermodata.store.tidy.clock.source_clock import Clock, first_ns, is_relative, last_ns, names_no_zone, start_ns
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
@@ -40,6 +40,11 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
             base_ns |= {s.name: start_ns(start, plan, s) for s in undated}
         placed, notes = by_times_of_day(plan, [s for s in undated if not _is_told(s)], base_ns)
         base_ns |= placed
+        if start is not None and undated and names_no_zone(start, plan):
+            notes.append(
+                f"{plan.test.id}: its start names no zone, and no source declares one: taken as UTC; set timezone: of "
+                "a source, or write the start with its offset: 2026-03-04 08:15+01:00"
+            )
         if start is not None:
             plan.problems += _beside(plan, base_ns, dated, undated)
     else:
