@@ -116,3 +116,15 @@ def test_what_an_ingest_mends_is_told(tmp_path: Path, say: Say) -> None:
 )
 def test_a_sound_clock_is_not_told(tmp_path: Path, say: Say, rows: list[int]) -> None:
     assert _noted(tmp_path, say, {"R1.csv": rows}) == []
+
+
+def test_a_second_list_of_other_columns_is_no_clock_that_was_set(tmp_path: Path, say: Say) -> None:
+    probes = [f"2026-04-26T08:{k // 6:02d}:{k % 6}0Z,{12 + k % 7 / 10:.2f},{k % 5 / 10}," for k in range(360)]
+    rows = [*probes, *(f"2026-04-26T08:{k:02d}:00Z,,,{20 + k / 99:.3f}" for k in range(60))]
+    (tmp_path / "R1.csv").write_text(
+        "\n".join(["time,disp_z [um],disp_y [um],T_bed [degC]", *rows, ""]), encoding="utf-8"
+    )
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert "rows from there on fill other columns than those before, so no clock was set back" in text
+    assert "clock: {resets: allow}" not in text

@@ -14,27 +14,33 @@ from thermodata.store.raw.order import find_order
 
 _REPEATED = 0.9  # of the rows that go through times again: a copy of rows, which ingest leaves out
 _LEAST = 20
+_BITS = 62  # of an int64
 _LOOKED_AT = 100_000  # rows, for a period
 
 
 @dataclass(frozen=True, slots=True)
 class SetBack:
     """row: of the stream, from 1; from_ns, to_ns: what it told before, and there; in_no_order: whether rows stand in no
-    order at all; older: whether all that follows is older than what came before."""
+    order at all; older: whether all that follows is older than what came before; apart: whether no signal changes both
+    before and behind it."""
 
     row: int
     from_ns: int
     to_ns: int
     in_no_order: bool = False
     older: bool = False
+    apart: bool = False
 
 
 @dataclass(slots=True)
 class Clock:
-    """The times of a stream while its blocks pass, and one value beside each."""
+    """The times of a stream while its blocks pass, one value beside each, and a bit for each signal that has another
+    one than before: what is written on change stands through rows that do not fill it."""
 
     t_ns: list[Int1D] = field(default_factory=list)
     values: list[Array] = field(default_factory=list)
+    filled: list[Int1D] = field(default_factory=list)
+    last: dict[str, float] = field(default_factory=dict)
     steps: Steps = field(default_factory=Steps)
     leap: Leap = field(default_factory=Leap)
 
@@ -42,6 +48,7 @@ class Clock:
         self.t_ns.append(block.t_ns)
         numbers = next((v for v in block.values.values() if v.dtype.kind in "iuf"), None)
         self.values.append(np.zeros(block.t_ns.size) if numbers is None else numbers.astype(np.float64))
+        self.filled.append(_filled(block, self.last))
         self.steps.add(block.t_ns)
         self.leap.add(block.t_ns)
 
@@ -90,7 +97,22 @@ class Clock:
         again = np.flatnonzero(t[keep:] <= high) + keep
         if self._stands_before(again, t):
             return None
-        return SetBack(keep + 1, high, int(t[keep]), self.steps.in_no_order, bool(t[keep:].max() < t[:keep].min()))
+        older, filled = bool(t[keep:].max() < t[:keep].min()), np.concatenate(self.filled)
+        before, behind = (int(np.bitwise_or.reduce(part)) for part in (filled[:keep], filled[keep:]))
+        apart = before != 0 and behind != 0 and before & behind == 0
+        return SetBack(keep + 1, high, int(t[keep]), self.steps.in_no_order, older, apart)
+
+
+def _filled(block: Block, last: dict[str, float]) -> Int1D:
+    """A bit for each of the first signals of numbers, where it has another value than in the row before, shape (n,).
+    last: signal -> its value before the block; is brought up to its end."""
+    found = np.zeros(block.t_ns.size, np.int64)
+    numbers = [(name, v) for name, v in block.values.items() if v.dtype.kind in "iuf" and v.size]
+    for k, (name, column) in enumerate(numbers[:_BITS]):
+        before = np.concatenate([[last.get(name, np.nan)], column[:-1]])
+        found |= (np.isfinite(column) & (column != before)).astype(np.int64) << k
+        last[name] = float(column[-1])
+    return found
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:

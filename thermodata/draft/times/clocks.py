@@ -102,6 +102,13 @@ _WAS_SET = (
 )
 
 
+_APART = (
+    "rows from there on fill other columns than those before, so no clock was set back: they are another list of the "
+    "same hours, which resets: allow would put behind them; cut the file there, each part with the header, and give "
+    "each a source of its own"
+)
+
+
 def set_back_question(group: Group) -> str | None:
     """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
     follows."""
@@ -114,7 +121,7 @@ def set_back_question(group: Group) -> str | None:
                 f"the rows of {file.path.name} stand in no order of their times, and what follows row {back.row - 1} "
                 "is lost: sort the file by its time"
             )
-        if any("resets: allow" in a.ask for a in file.asked):
+        if any("resets: allow" in a.ask for a in file.asked) and not back.apart:
             continue
         absolute = file.recording.clock == "absolute"
         of_day = file.recording.of_day_ns
@@ -123,7 +130,7 @@ def set_back_question(group: Group) -> str | None:
         by = said(back.from_ns, back.to_ns, absolute, file.local, of_day)
         return (
             f"the clock of {file.path.name} goes back by {by} at row {back.row}, and what follows is lost: "
-            f"{cause or asked}"
+            f"{_APART if back.apart else cause or asked}"
         )
     return None
 
