@@ -14,8 +14,10 @@ from thermodata.calibration.quality.last_row import Reading, last_row_repeats
 from thermodata.calibration.quality.sun import least_count_of_sun
 from thermodata.calibration.quality.time import TimeFlags
 from thermodata.calibration.quality.value import RunStats, run_stats
+from thermodata.calibration.quality.zeros import rows_of_zeros
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
+from thermodata.schema.units.quantity import STATES
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious.
 ANALOG = frozenset(
@@ -84,6 +86,13 @@ class Stream:
             if c.is_number and not c.held
         }
         return last_row_repeats(self.t_ns, told)
+
+    @cached_property
+    def zeros(self) -> Bool1D:
+        """See `rows_of_zeros`."""
+        numbers = {k: c for k, c in self.columns.items() if c.is_number and c.quantity not in STATES}
+        warm = {k: c.values for k, c in numbers.items() if c.quantity == "temperature"}
+        return rows_of_zeros({k: c.values for k, c in numbers.items()}, warm, len(self.t_ns))
 
 
 def _analog(column: ColumnInput) -> Float1D | None:

@@ -52,6 +52,13 @@ def no_number_is_missing(seen: Marked) -> None:
         seen.flags[after] |= np.uint16(Flag.GAP)
 
 
+def a_row_of_zeros_is_not_measured(seen: Marked) -> None:
+    """What a program writes on all channels at once where it had no values. It is no fault of a sensor: no event."""
+    if seen.column.quantity not in STATES:
+        seen.flags[seen.stream.zeros] |= np.uint16(Flag.NOT_MEASURING)
+        seen.told |= seen.stream.zeros
+
+
 def beyond_or_at_the_declared_range(seen: Marked) -> None:
     """A reading past the range that somebody declared, or at one of its ends; what that was, `as_given` tells."""
     if not seen.column.is_float or seen.column.range is None:
@@ -140,6 +147,8 @@ def held_or_stuck(seen: Marked) -> None:
     for start, stop, stuck, why in runs:
         if seen.has(_AT_AN_END, slice(start, stop)).all() or rests(x, t_ns, start, stop, quantity):
             continue
+        if seen.stream.zeros[start:stop].all():
+            continue
         if not (count and is_clear_sky(x, t_ns, start, stop, count)):
             seen.mark_rows(Flag.STUCK if stuck else Flag.HELD, start, stop, why)
 
@@ -195,6 +204,8 @@ def steps_and_stays(seen: Marked) -> None:
         return
     steps: list[Step] = list(offset_steps(seen.x, t_ns, seen.flags, seen.stream.time.flags, seen.stats))
     for step in steps:
+        if seen.stream.zeros[step.start : step.stop].all():
+            continue
         neighbours = [np.asarray(values, dtype=np.float64) for values in seen.beside("temperature").values()]
         since = stood_before(seen.x, t_ns, step, seen.stats, neighbours)
         why = f"a step of {step.size:+.1f} K {step.how}"
@@ -206,6 +217,7 @@ def steps_and_stays(seen: Marked) -> None:
 
 RULES: tuple[Rule, ...] = (
     no_number_is_missing,
+    a_row_of_zeros_is_not_measured,
     beyond_or_at_the_declared_range,
     no_sensor_reads_that,
     a_code_stands_for_no_value,

@@ -9,7 +9,7 @@ from thermodata.schema.flag import Flag
 if TYPE_CHECKING:
     from thermodata.store import Store
 
-SAID_BY_LOG = "the log has no value there, or says in a comment or a status that it is none"
+SAID_BY_LOG = "the log has no value there, leaps to 0 in all channels, or says in a comment or a status that it is none"
 OUTSIDE = "outside of the test's measuring"
 
 _TESTS = """
