@@ -34,6 +34,17 @@ def test_a_sheet_on_its_side_is_told(tmp_path: Path) -> None:
     assert "transpose" in str(caught.value)
 
 
+def test_a_text_of_dates_on_its_side_is_told_whatever_its_first_cell_says(tmp_path: Path) -> None:
+    times = [f"2026/06/15 09:{k:02d}:00" for k in range(40)]
+    rows = (["Group1", *times], *([f"HOST1:DM{n:05d}", *(str(230 + k * n) for k in range(40))] for n in range(5)))
+    path = tmp_path / "Trd001.csv"
+    path.write_text("\n".join([*(",".join(row) for row in rows), ""]))
+    with pytest.raises(FormatError, match="a table on its side") as caught:
+        Reader().describe(path, Source())
+    assert "row 1 'Group1' holds 40 times" in str(caught.value)
+    assert "pandas.read_csv('Trd001.csv', header=None).T.to_csv('Trd001_turned.csv'" in str(caught.value)
+
+
 def test_another_sheet_is_read_beside_one_on_its_side(tmp_path: Path) -> None:
     book = workbook(tmp_path / "x.xlsx", {"a": sheet(sideways()), "b": sheet(seconds(30))})
     found = Reader().describe(book, Source())

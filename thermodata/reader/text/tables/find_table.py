@@ -20,6 +20,7 @@ from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.page.header.header_again import repeats_of
 from thermodata.reader.text.page.header.second_header import second_header
 from thermodata.reader.text.page.layout import Layout, find_layout
+from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.page.timed.group import STREAM, Group
 from thermodata.reader.text.preamble.begin import (
     BY_HALF,
@@ -153,12 +154,24 @@ def _sampled(
     lines, rows = whole, whole.rows()
     if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
         lines, rows = whole.up_to(end), rows[:end]
-    layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    try:
+        layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    except FormatError:
+        refuse_sideways(rows, where, _turned(where))
+        raise
     body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
     return lines, Sampled(said, layout, groups, body, where)
+
+
+def _turned(where: str) -> str:
+    """How a text that stands on its side is turned round."""
+    return (
+        f"python -c \"import pandas; pandas.read_csv('{where}', header=None).T.to_csv('{Path(where).stem}_turned.csv', "
+        "header=False, index=False)\", with sep=';' where cells stand between these"
+    )
 
 
 def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[list[str]]:
