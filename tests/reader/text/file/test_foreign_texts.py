@@ -53,10 +53,20 @@ UNV = (
     "    -1\n   164\n         1                  SI         2\n" + "  1.00000e+00  1.00000e+00\n" * 9 + "    -1\n" + UFF
 )
 
+SPLIT = '{"columns":["time","dZ_um"],"index":[0,1],"data":[["2026-05-11T06:00:00.000Z",0.0],["2026-05-11",0.1]]}'
+COLUMNS = '{"dZ_um":{"2026-05-11T06:00:00.000Z":0.0,"2026-05-11T06:00:10.000Z":0.1}}'
+ROWS = '[{"time":1778479200000,"dZ_um":0.0},{"time":1778479210000,"dZ_um":0.1}]'
+DUMP = "-- MySQL dump 10.13  Distrib 8.0.36\nINSERT INTO `measurement` VALUES ('2026-05-11 06:00:00.000',-0.1);\n"
+
 
 @pytest.mark.parametrize(
     ("text", "what", "do"),
     [
+        (SPLIT, "a table as JSON", "read_json('FILE', orient='split').to_csv('FILE.csv', index=False)"),
+        (COLUMNS, "a table as JSON", "read_json('FILE').to_csv('FILE.csv', index_label='time')"),
+        (ROWS, "a list of rows as JSON", "read_json('FILE').to_csv('FILE.csv', index=False)"),
+        ('{"d":[[1,2],[3,4]]}', "JSON", "export it as CSV"),
+        (DUMP, "a dump of MySQL", "mysql --batch"),
         (EXCEL, "workbook in one XML", "XLSX"),
         (FLAT, "workbook in one XML", "XLSX"),
         (AGENT, "agent of MTConnect", "grep"),

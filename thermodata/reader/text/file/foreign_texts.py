@@ -143,7 +143,42 @@ def _is_rows_apart(lines: Sequence[str]) -> bool:
     return re.match(r"\*{10,} 1\. row \*{10,}|-\[ RECORD 1 \]-", lines[0]) is not None
 
 
+def _is_split_json(lines: Sequence[str]) -> bool:
+    """Whether it is a table of pandas as JSON in one line, its columns, its index and its rows apart."""
+    return len(lines) == 1 and re.match(r'\{"(?:columns|index|data)":\s?\[', lines[0]) is not None
+
+
+def _is_json_by_columns(lines: Sequence[str]) -> bool:
+    """Whether it is one in which each column holds its values by the times or numbers of their rows."""
+    return len(lines) == 1 and re.match(r'\{"[^"]+":\s?\{"[\d:TZ. +-]+":', lines[0]) is not None
+
+
+def _is_json_of_rows(lines: Sequence[str]) -> bool:
+    return len(lines) == 1 and re.match(r'\[\s*\{\s*"', lines[0]) is not None
+
+
+def _is_json(lines: Sequence[str]) -> bool:
+    """Whether it is any other JSON in one line."""
+    return len(lines) == 1 and re.match(r'(?:\{\s*"|\[\s*[\[{])', lines[0]) is not None
+
+
+def _is_dump_of_mysql(lines: Sequence[str]) -> bool:
+    return re.match(r"-- (?:MySQL|MariaDB) dump ", lines[0]) is not None
+
+
+_BY_PANDAS = "make a CSV of it: python -c \"import pandas; pandas.read_json('FILE'{}).to_csv('FILE.csv'{})\""
 _KNOWN = (
+    (_is_split_json, "a table as JSON (pandas)", _BY_PANDAS.format(", orient='split'", ", index=False")),
+    (_is_json_by_columns, "a table as JSON (pandas)", _BY_PANDAS.format("", ", index_label='time'")),
+    (_is_json_of_rows, "a list of rows as JSON", _BY_PANDAS.format("", ", index=False")),
+    (_is_json, "JSON", "export it as CSV"),
+    (
+        _is_dump_of_mysql,
+        "a dump of MySQL, whose rows stand in its statements",
+        "ask for a table: mysql --batch -e 'select * from TABLE' DATABASE > FILE.tsv; or take the rows out, and write "
+        "their names above: python -c \"import re; rows = re.findall(r'\\(([^()]*)\\)[,;]', open('FILE').read()); "
+        "open('FILE.csv', 'w').write('\\n'.join(rows).replace(chr(39), ''))\"",
+    ),
     (
         _is_spreadsheet_in_xml,
         "a workbook in one XML file (of Excel 2003, or a flat one of LibreOffice)",
