@@ -45,6 +45,8 @@ def read(
         ["Start date;2026-03-02", "Start time;07:00:00"],
         ["Date: 2026-03-02", "Start: 07:00"],
         ["Messbeginn;02.03.2026;07:00:00"],
+        ["Měření teplotních deformací   stroj MCV 750   začátek 02.03.2026 07:00"],
+        ["Prova 3 - inizio 02.03.2026 07:00"],
         ["Inizio misura: 2026/03/02 07:00"],
         ["Début de l'enregistrement : 02.03.2026 07:00:00"],
         ["Fecha de inicio: 2026-03-02", "Hora de inicio: 07:00:00"],

@@ -27,6 +27,7 @@ from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
 _LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\d_][^\d:=]{0,58}?)\s+(\d.*)$"))
+_PARTS = re.compile(r"\s{2,}|[,;] | [-–] ")
 _MARKS = "#%;*'\"/!<> \t"  # by which a line is a comment
 _FULL_WIDTH = str.maketrans("：＝（）", ":=()")
 _MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
@@ -137,7 +138,8 @@ def _ns(moment: Moment) -> int:
 
 def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unread]:
     """The moments of one line: a label and its time in one cell, or in cells behind each other."""
-    left = [" ".join((clean(c).strip(_MARKS) if k == 0 else clean(c)).split()) for k, c in enumerate(cells)]
+    bare = [clean(c).strip(_MARKS) if k == 0 else clean(c) for k, c in enumerate(cells)]
+    left = [" ".join(c.split()) for whole in bare for c in _in_parts(whole)]
     left = [without_pass(c.translate(_FULL_WIDTH)) for c in left if 0 < len(c) <= _LONGEST_CELL]
     k = 0
     while k < len(left):
@@ -157,6 +159,17 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
         elif names_a_moment(rest := " ".join([*values, *left[k + 1 : k + _MOST_CELLS]]), says is TimeLabel.BEGAN):
             yield Unread(says, f"{label}: {rest}", tells_the_hour(rest))
         k += 1 + used
+
+
+def _in_parts(cell: str) -> list[str]:
+    """The parts of a title that names a start behind other things: 'Machine MCV 750   start 04.05.2026 08:00'; else the
+    whole cell."""
+    label = _split(" ".join(cell[:_LONGEST_CELL].split()))[0]
+    if len(cell) > _LONGEST_CELL or (said_by(label) is TimeLabel.BEGAN and not re.search(r"\d", label)):
+        return [cell]
+    parts = _PARTS.split(cell)
+    began = [said_by(_split(part)[0]) is TimeLabel.BEGAN for part in parts]
+    return parts if any(began) else [cell]
 
 
 def _split(cell: str) -> tuple[str, str, str]:
