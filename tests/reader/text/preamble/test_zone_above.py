@@ -24,6 +24,7 @@ def described(folder: Path, head: str, rows: list[str] = ROWS, zone: str | None 
     ("head", "hours"),
     [
         ("Zeitzone: UTC+1", 1),
+        ("時差:GMT+9:00/夏時間:off", 9),
         ("# Time zone = GMT-05:00", -5),
         ("Timezone;+02:00", 2),
         ("Fuseau horaire : UTC", 0),

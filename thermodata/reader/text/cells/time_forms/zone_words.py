@@ -127,11 +127,13 @@ def stated_zone(headers: Iterable[str]) -> str | None:
 
 _ABOVE = re.compile(
     r"(?i)(?:utc[ -]?offset|time ?zone|tz|zeitzone|fuseau(?: horaire)?|fuso(?: orario)?|zona horaria|časové pásmo|"
-    r"strefa czasowa|tijdzone|tidszon|időzóna|часовой пояс|タイムゾーン|时区|時區|표준시간대)"
+    r"strefa czasowa|tijdzone|tidszon|időzóna|часовой пояс|タイムゾーン|時差|时区|時區|표준시간대)"
 )
 _OFFSET_ALONE = re.compile(
     r"(?i)\(?(?:UTC|GMT)?\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?00)?(?:\s?h)?\)?|UTC|GMT|Z"
 )
+
+_WITHOUT_SUMMER = re.compile(r"(?:時差|时差) ?[:：] ?(?P<offset>[^/]{1,12})/ ?(?:夏時間|夏令时) ?[:：] ?off")  # T&D
 
 
 def zone_above(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
@@ -140,6 +142,8 @@ def zone_above(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
     found: dict[str, str] = {}
     for cells in lines:
         text = " ".join(c.strip() for c in cells if c.strip()).strip("#%;/* \t\"'")
+        if (one := _WITHOUT_SUMMER.match(text)) is not None:
+            text = f"時差: {one['offset']}"
         label, mark, value = re.sub(r"\s*[=;]\s*|\s*:\s+", ": ", text, count=1).partition(": ")
         if not mark and (word := _ABOVE.match(text)):
             label, value = word[0], text[word.end() :]
