@@ -80,3 +80,9 @@ def test_a_probe_in_volts_is_offered_a_gain_in_um_per_volt() -> None:
     assert not [s for s in said if s.startswith("sign unknown")]
     in_um = unanswered(parse_campaign(text.replace("unit: V", "unit: mm")))
     assert [s for s in in_um if s.startswith("sign unknown")]
+
+
+@pytest.mark.parametrize(("gain", "told"), [("-250", True), ("250", False)])
+def test_a_gain_below_0_turns_a_channel_whose_sign_nobody_says(gain: str, told: bool) -> None:
+    (said,) = [s for s in unanswered(parse_campaign((TEXT % "").replace("250", gain))) if s.startswith("sign unknown")]
+    assert ("but for dX, turned by the gain below 0 of their calibration" in said) == told

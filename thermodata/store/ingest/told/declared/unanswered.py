@@ -34,8 +34,9 @@ def unanswered(campaign: Campaign) -> list[str]:
     turned = [n for n in open_signs if n not in volts]
     if turned:
         said.append(
-            f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them. A jump test tells "
-            f"it, or the way the probe looks: {_sign([campaign.channels[n].axis for n in turned])}"
+            f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them"
+            f"{_by_gain(turned, campaign)}. A jump test tells it, or the way the probe looks: "
+            f"{_sign([campaign.channels[n].axis for n in turned])}"
         )
     grows = [n for n, c in campaign.calibrations.items() if _grows_unsaid(c)]
     if grows:
@@ -86,9 +87,19 @@ def _unoriented(channel: Channel, campaign: Campaign) -> bool:
     """Whether nothing says which way a displacement counts: no jump test, and no probe whose facing is declared."""
     if channel.quantity not in PROBED or channel.derive is not None:
         return False
-    named = [channel.calibration] if isinstance(channel.calibration, str) else channel.calibration or []
-    own = [campaign.calibrations[n] for n in named if n in campaign.calibrations]
+    own = [campaign.calibrations[n] for n in _listed_of(channel.calibration) if n in campaign.calibrations]
     return not any(c.kind == "jump" or (c.kind == "scale" and c.axis and c.facing) for c in own)
+
+
+def _by_gain(names: Sequence[str], campaign: Campaign) -> str:
+    """What turns some of these channels: a gain below 0 of a calibration that says no facing."""
+    turned = {n for n, c in campaign.calibrations.items() if c.kind == "scale" and str(c.gain).lstrip().startswith("-")}
+    own = [n for n in names if turned & {*_listed_of(campaign.channels[n].calibration)}]
+    return f", but for {_listed(own)}, turned by the gain below 0 of their calibration" if own else ""
+
+
+def _listed_of(names: str | Sequence[str] | None) -> Sequence[str]:
+    return [names] if isinstance(names, str) else names or []
 
 
 def _grows_unsaid(calibration: Calibration) -> bool:
