@@ -140,16 +140,16 @@ FAULTS = {"Error": ("0", "3001"), "Fehlercode": ("0", "1200"), "Fault": ("", "se
 
 
 @pytest.mark.parametrize("name", FAULTS)
-@pytest.mark.parametrize("tag", ["Point", "Ch"])
+@pytest.mark.parametrize("tag", ["Point", "MPoint", "Ch"])
 def test_a_column_of_faults_flags_its_row(tmp_path: Path, name: str, tag: str) -> None:
     none, fault = FAULTS[name]
     rows = [
         f"{point};2026-03-02 08:00:{k:02d};{850 if k == 7 else 20 + k / 10};°C;{fault if k == 7 and p else none}\n"
         for k in range(40)
-        for p, point in enumerate(("T_bed", "T_front") if tag == "Point" else ("10", "11"))
+        for p, point in enumerate(("T_bed", "T_front") if tag != "Ch" else ("10", "11"))
     ]
     path = written(tmp_path, f"{tag};Time;Value;Unit;{name}\n" + "".join(rows), "h.csv")
-    source = Source(timezone="UTC", table=None if tag == "Point" else {"series": ["Ch"]})
+    source = Source(timezone="UTC", table=None if tag != "Ch" else {"series": ["Ch"]})
     data = load(Reader(), path, source)
     flags = [data.flags[key] for key in data.values if key[1] in ("T_bed", "T_front") or "Value" in key[1]]
     assert [np.flatnonzero(each).tolist() for each in flags] == [[], [7]]

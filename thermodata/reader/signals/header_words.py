@@ -22,7 +22,7 @@ NAME_WORDS = (
         "itemname",
     ),
     *("name", "point", "channel", "sensor", "sensorid", "sensorname", "signal", "variable", "parameter", "measurand"),
-    *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
+    *("messstelle", "messpunkt", "mpoint", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
 )
 # columns that say which sensor, entity or frame it is, and never how that is
 SENSOR_IDS = (
