@@ -91,7 +91,8 @@ def test_a_list_of_models_names_all_effects() -> None:
     effects = ["ambient_frame", "centrifugal_shift", "probe_temperature", "tool_elongation", "feed_motor"]
     row = {"model": "m1", "name": "baseline", "version": 1, "parent": None, "effects": effects, "campaigns": ["c"]}
     more = {"responses": ["dZ"], "created_at": datetime(2026, 3, 1, tzinfo=UTC), "stale": False, "fitted_last": True}
-    text = _text([{**row, **more}])
+    scored = {"calibration_um": 1.0, "verification_um": None, "in_sample": False}
+    text = _text([{**row, **more, **scored}])
     assert "…" not in text
     assert all(effect in text for effect in effects)
 

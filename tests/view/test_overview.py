@@ -19,7 +19,7 @@ from thermodata.view.curves import window as of_windows
 from thermodata.view.curves.predictions import predictions, residual_strips
 from thermodata.view.curves.window import channels_of, read_window
 from thermodata.view.lists.models import model_rows
-from thermodata.view.lists.overview import TestFilter, find_tests
+from thermodata.view.lists.overview import WantedTests, find_tests
 
 T_S = np.arange(600) * 10.0
 
@@ -68,28 +68,28 @@ def store(build_once: Callable[[], Any]) -> Store:
 @pytest.mark.parametrize(
     ("asked", "tests"),
     [
-        (TestFilter(), ["heat1", "day1", "day2"]),
-        (TestFilter(find="day"), ["day1", "day2"]),
-        (TestFilter(find="DAY warm"), ["day2"]),
-        (TestFilter(find="9000 rpm"), ["heat1"]),
-        (TestFilter(find="linear axis"), ["day1"]),
-        (TestFilter(find="%"), []),
-        (TestFilter(find="' or true --"), []),
-        (TestFilter(role="locked"), ["day2"]),
-        (TestFilter(kind="spindle", find="heat"), ["heat1"]),
-        (TestFilter(sort="test"), ["day1", "day2", "heat1"]),
-        (TestFilter(sort="valid"), ["day1", "heat1", "day2"]),
-        (TestFilter(sort="error", models={"lab": "m1"}), ["heat1", "day1", "day2"]),
-        (TestFilter(per_page=2, page=2), ["day2"]),
-        (TestFilter(per_page=2, page=99), ["day2"]),
+        (WantedTests(), ["heat1", "day1", "day2"]),
+        (WantedTests(find="day"), ["day1", "day2"]),
+        (WantedTests(find="DAY warm"), ["day2"]),
+        (WantedTests(find="9000 rpm"), ["heat1"]),
+        (WantedTests(find="linear axis"), ["day1"]),
+        (WantedTests(find="%"), []),
+        (WantedTests(find="' or true --"), []),
+        (WantedTests(role="locked"), ["day2"]),
+        (WantedTests(kind="spindle", find="heat"), ["heat1"]),
+        (WantedTests(sort="test"), ["day1", "day2", "heat1"]),
+        (WantedTests(sort="valid"), ["day1", "heat1", "day2"]),
+        (WantedTests(sort="error", models={"lab": "m1"}), ["heat1", "day1", "day2"]),
+        (WantedTests(per_page=2, page=2), ["day2"]),
+        (WantedTests(per_page=2, page=99), ["day2"]),
     ],
 )
-def test_what_is_asked_for_is_found_in_its_order(store: Store, asked: TestFilter, tests: list[str]) -> None:
+def test_what_is_asked_for_is_found_in_its_order(store: Store, asked: WantedTests, tests: list[str]) -> None:
     assert [r.test for r in find_tests(store, asked).rows] == tests
 
 
 def test_a_test_says_what_counts_and_what_the_model_leaves(store: Store) -> None:
-    found = find_tests(store, TestFilter(models={"lab": "m1"}))
+    found = find_tests(store, WantedTests(models={"lab": "m1"}))
     heat, day, locked = found.rows
     assert (heat.valid, day.valid, heat.rmse_um, locked.rmse_um) == (1.0, 0.95, 1.41, None)
     assert heat.conditions == {"speed": "9000 rpm"}
@@ -99,9 +99,9 @@ def test_a_test_says_what_counts_and_what_the_model_leaves(store: Store) -> None
 
 def test_wrong_names_are_refused_with_the_right_ones(store: Store) -> None:
     with pytest.raises(UsageError, match="did you mean 'lab'"):
-        find_tests(store, TestFilter(campaign="lap"))
+        find_tests(store, WantedTests(campaign="lap"))
     with pytest.raises(UsageError, match="no order"):
-        find_tests(store, TestFilter(sort="colour"))  # type: ignore[arg-type]
+        find_tests(store, WantedTests(sort="colour"))  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="no test"):
         channels_of(store, "lab", "heat")
 
@@ -276,9 +276,9 @@ def test_a_thousand_tests_are_searched_in_a_moment(build: Callable[..., Any]) ->
             added_at="2026-03-01",
         )
     store = b.store()
-    find_tests(store, TestFilter())
+    find_tests(store, WantedTests())
     began = time.monotonic()
-    found = find_tests(store, TestFilter(find="777"))
+    found = find_tests(store, WantedTests(find="777"))
     assert [r.test for r in found.rows] == ["t0777"]
     assert found.rows[0].valid == pytest.approx(0.99)
     assert time.monotonic() - began < 2.0
@@ -310,7 +310,7 @@ tests:
         counts = con.execute("select channel, count(*) filter (not valid(flag)) from sample group by 1").fetchall()
         both = f"flag & {int(Flag.SATURATED)} <> 0 and flag & {int(Flag.NOT_MEASURING)} <> 0"
         assert con.execute(f"select count(*) from sample where channel = 'dZ' and {both}").fetchall() == [(50,)]
-    (found,) = find_tests(store, TestFilter()).rows
+    (found,) = find_tests(store, WantedTests()).rows
     assert found.valid == pytest.approx(1 - sum(n for _, n in counts) / 900)
     of_the_probe = 1 - dict(counts)["dZ"] / 300
     assert of_the_probe < found.valid, "the bed and the state count throughout"

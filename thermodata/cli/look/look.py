@@ -15,7 +15,7 @@ from thermodata.report.collected.records import records, written_conditions
 from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
 from thermodata.schema.words.sentences import counted
-from thermodata.view.lists.overview import TestFilter, find_tests
+from thermodata.view.lists.overview import WantedTests, find_tests
 
 campaign_option = click.option(
     "--campaign", "-c", metavar="CAMPAIGN", help="Only this campaign.", shell_complete=completing.campaigns
@@ -79,7 +79,7 @@ def tests_command(
         _refuse_unknown(role, kind)
     rows = rows_of(session, _TESTS, campaign, "campaign, test")
     if role or kind or find or machine:
-        asked = TestFilter(
+        asked = WantedTests(
             find or "", campaign or "", role or "", kind or "", machine=machine or "", per_page=max(1, len(rows))
         )
         found = {(r.campaign, r.test) for r in find_tests(session.store(), asked).rows}

@@ -78,7 +78,7 @@ listed as (
 
 
 @dataclass(frozen=True, slots=True)
-class TestFilter:
+class WantedTests:
     """What is looked for. find: words that all stand in a test's campaign, name, kind, role, machine, conditions or
     notes. models: by campaign, the one whose errors are shown beside its tests. page: from 1."""
 
@@ -137,7 +137,7 @@ class TestList:
     machines: dict[str, int] = field(default_factory=dict)
 
 
-def find_tests(store: Store, asked: TestFilter) -> TestList:
+def find_tests(store: Store, asked: WantedTests) -> TestList:
     """The tests that are asked for, in the asked order. UsageError for a campaign, a machine or an order that there is
     not; a page beyond the last one is the last one."""
     if asked.sort not in SORTS:
@@ -178,7 +178,7 @@ def _counts(con: duckdb.DuckDBPyConnection, column: str, of: str = "test") -> di
     return {str(name): int(n) for name, n in rows}
 
 
-def _condition(asked: TestFilter) -> tuple[str, dict[str, Any]]:
+def _condition(asked: WantedTests) -> tuple[str, dict[str, Any]]:
     parts = ["true"]
     params: dict[str, Any] = {"of": list(asked.models), "models": list(asked.models.values())}
     for name in ("campaign", "role", "kind", "machine"):

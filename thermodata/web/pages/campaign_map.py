@@ -12,7 +12,7 @@ from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
 from thermodata.view.lists.models import ModelRow, fitted_last_of_each, model_rows
-from thermodata.view.lists.overview import Sort, TestFilter, find_tests
+from thermodata.view.lists.overview import Sort, WantedTests, find_tests
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.parts.strip import FULL_COLOUR, strip_svg
@@ -35,7 +35,7 @@ def show(request: Request) -> Response:
     campaign, named = given.get("campaign", ""), given.get("model", "")
     models = [m for m in model_rows(store) if campaign in ("", *m.campaigns)]
     of = _models_of(store, models, campaign, named)
-    asked = TestFilter(
+    asked = WantedTests(
         find=given.get("find", "")[:200],
         campaign=campaign,
         role=given.get("role", ""),
@@ -110,7 +110,7 @@ def _limit(strips: list[Float1D]) -> float:
     return float(np.quantile(there, FULL_COLOUR)) if len(there) else 1.0
 
 
-def _command(store: Any, asked: TestFilter, model: ModelRow | None) -> str:
+def _command(store: Any, asked: WantedTests, model: ModelRow | None) -> str:
     """Of a model `compare` prints what is left of each test."""
     options = [("-c", asked.campaign), ("--machine", asked.machine), ("--role", asked.role), ("--kind", asked.kind)]
     options += [("--find", asked.find)]

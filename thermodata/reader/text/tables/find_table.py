@@ -167,8 +167,10 @@ def _sampled(
 
 
 def _turned(where: str) -> str:
-    """How a text that stands on its side is turned round."""
+    """How a text that stands on its side is turned round, in a spreadsheet or, of one that is too wide for it, by a
+    command."""
     return (
+        "in a spreadsheet copy all, and paste it with 'transpose' into a new sheet; or "
         f"python -c \"import pandas; pandas.read_csv('{where}', header=None).T.to_csv('{Path(where).stem}_turned.csv', "
         "header=False, index=False)\", with sep=';' where cells stand between these"
     )
