@@ -136,6 +136,17 @@ def test_a_pack_of_senml_has_its_bases(tmp_path: Path) -> None:
     assert values(read(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(9)]}
 
 
+@pytest.mark.parametrize(
+    "spoilt", [{"t": "NaN"}, {"t": "Infinity"}, {"t": "1e999999999999"}, {"t": [1]}, {"bt": "x"}, {"bt": {"a": 1}}]
+)
+def test_a_time_that_is_none_costs_its_own_record_of_senml(tmp_path: Path, spoilt: dict[str, Any]) -> None:
+    """It was raised while the file was looked at, and no reader took the file."""
+    packs = [[{"bn": "m:", "n": "T", "u": "Cel", "t": START_S + 60 * k, "v": 20 + k}] for k in range(40)]
+    packs[20][0] = {**packs[20][0], **spoilt}
+    assert values(read(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(40) if k != 20]}
+    assert Reader().sniff(head(tmp_path / "log.jsonl")) is not None
+
+
 def test_senml_that_counts_back_from_now_is_not_dated(tmp_path: Path) -> None:
     path = tmp_path / "log.json"
     path.write_text(json.dumps([{"bn": "m:", "n": "T", "t": -10 * k, "v": 20 + k} for k in range(9)]) + "\n")

@@ -12,6 +12,7 @@ _OWN = frozenset({"n", "u", "v", "vs", "vb", "vd", "s", "t", "ut"})
 _VALUES = ("v", "vb", "vs")
 # below it a time is one before now, which a file does not know
 _ABSOLUTE_S = Decimal(2**28)
+_DIGITS = 300  # before or behind the point: what a float64 holds
 
 
 def is_pack(records: Sequence[Any]) -> bool:
@@ -47,9 +48,18 @@ def resolved(records: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _sum(base: Any, own: Any) -> str | None:
-    """A base and what stands in the record, one of which may be missing; None where they are no numbers."""
-    given = [str(each) for each in (base, own) if each is not None]
+    """A base and what stands in the record, one of which may be missing; None where one of them is no finite number."""
+    given = [each for each in (base, own) if each is not None]
+    numbers = [n for each in given if (n := _number(each)) is not None]
+    if not given or len(numbers) < len(given):
+        return None
+    return str(given[0]) if len(given) == 1 else str(sum(numbers))
+
+
+def _number(said: Any) -> Decimal | None:
+    """A log may say anything there: 'NaN', a list, an exponent that no computer holds."""
     try:
-        return given[0] if len(given) == 1 else str(sum(map(Decimal, given))) if given else None
+        number = Decimal(str(said))
     except InvalidOperation:
         return None
+    return number if number.is_finite() and abs(number.adjusted()) < _DIGITS else None
