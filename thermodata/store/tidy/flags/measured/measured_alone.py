@@ -64,9 +64,12 @@ def _stands(values: Array, mask: Bool1D) -> Bool1D:
 def _far_off(values: Array, at_end: Bool1D) -> Bool1D:
     """Where a value at the end of a range is far from all else that is measured, shape (n,): a probe that is not in
     reach yet, and no reading that the logger repeated. values: of the measured samples."""
-    found, rest = at_end.copy(), values[~at_end & np.isfinite(values)]
-    if not at_end.any() or not len(rest):
-        return np.zeros_like(at_end)
+    found = np.zeros_like(at_end)
+    if not at_end.any():  # nor are words numbers
+        return found
+    rest = values[~at_end & np.isfinite(values)]
+    if not len(rest):
+        return found
     within = np.concatenate([rest, values[at_end]])
     nearest = np.clip(values[at_end], rest.min(), rest.max())
     found[at_end] = np.abs(values[at_end] - nearest) > APART * np.ptp(within)
