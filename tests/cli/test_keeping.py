@@ -204,10 +204,12 @@ def test_versions_of_models_are_forgotten_from_the_newest_on_and_their_looks_cou
     (first,) = models()
     newer = json.loads(say("--store", store, "add", first, "lag:T_nut_Z", "--json").out)["model"]
     count_locked_look(Store(store), newer, [("small", "day2")], "to see")
+    newest = json.loads(say("--store", store, "add", newer, "lag:T_hall", "--plain", "--json").out)["model"]
     said = say("--store", store, "forget", "--model", first)
     assert said.code == 2
-    assert f"forget these too: {newer}" in said.err
-    assert set(models()) == {first, newer}
+    assert f"forget these too: {newer}, {newest}" in said.err, "with all that was made from these"
+    assert set(models()) == {first, newer, newest}
+    assert say("--store", store, "forget", "--model", newest).code == 0
     said = say("--store", store, "forget", "--model", newer)
     assert (said.code, "looks at locked tests that were opened for them stay counted: 1" in said.err) == (0, True)
     assert models() == [first]

@@ -44,7 +44,7 @@ def forget_command(
         raise UsageError(
             "what is to be forgotten?",
             expected="a CAMPAIGN, or --model MODEL",
-            got="both" if versions else "neither",
+            got="neither" if not versions else "both" if campaign else "--model with --earlier or --models",
             hint="thermodata campaigns and thermodata models list them",
         )
     if campaign is None:
@@ -65,6 +65,7 @@ def _forget_versions(session: Session, versions: Sequence[str]) -> None:
     ids = [find_model(store, resolve(store, ref, guess=False)).model for ref in versions]
     gone = plain(forget_models(store, list(dict.fromkeys(ids))))
     session.answer(gone, lambda: fields(gone.items()))
+    session.say(_UNTIL_GC)
     if n := gone["looks"]:
         session.say(f"looks at locked tests that were opened for them stay counted: {n}")
 

@@ -62,8 +62,9 @@ def forget_models(store: Store, models: Sequence[str]) -> dict[str, Any]:
     with store.write() as con:
         rows = fetch(
             con,
-            "select model, name, parent from model where list_contains($1, parent) and not list_contains($1, model) "
-            "order by created_at",
+            "with recursive made as (select model, name, parent from model where list_contains($1, parent) union "
+            "select m.model, m.name, m.parent from model m join made on m.parent = made.model) "
+            "select * from made where not list_contains($1, model)",
             [list(models)],
         )
         if rows:
