@@ -6,6 +6,6 @@ from thermodata.reader.finding import registry
 
 
 def look_at_readers_again() -> None:
-    registry._all.cache_clear()
+    registry._readers_and_failures.cache_clear()
     registry._versions.cache_clear()
     registry._told.clear()

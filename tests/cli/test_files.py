@@ -113,7 +113,7 @@ def test_a_reader_that_does_not_load_shows_in_the_exit_code(
 ) -> None:
     log = csv(tmp_path / "a.csv")
     good = registry.readers()
-    monkeypatch.setattr(registry, "_all", lambda: (good, {"cnc": "ImportError: no part"}))
+    monkeypatch.setattr(registry, "_readers_and_failures", lambda: (good, {"cnc": "ImportError: no part"}))
     del good["cnc"]
     said = say("sniff", log, "--json")
     assert said.code == 3

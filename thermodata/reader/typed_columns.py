@@ -99,7 +99,7 @@ def related(
 
     qualities = find_qualities(called, zero_of, columns.measured)
     note = None
-    told = _declared(said.get(KEY), list(columns.values), beyond, where)
+    told = _declared_columns(said.get(KEY), list(columns.values), beyond, where)
     own = {name for name, _ in (*qualities.of_values.values(), *qualities.of_rows.values())}
     if told is None:
         seen = columns.t_ns[columns.t_ns != NAT]
@@ -127,7 +127,7 @@ def unit_in_rows(values: Mapping[str, Array], units: Mapping[str, str | None]) -
     return found, found.note() if found is not None else unit_column_note(kinds, cells)
 
 
-def _declared(said: object, names: Sequence[str], beyond: Collection[str], where: str) -> frozenset[str] | None:
+def _declared_columns(said: object, names: Sequence[str], beyond: Collection[str], where: str) -> frozenset[str] | None:
     """Those of some columns that are declared, by their own names behind that of a sheet too."""
     if not isinstance(said, list | tuple):
         return declared_standing(said, names, where)

@@ -44,7 +44,7 @@ class _Breaking:
 @pytest.fixture
 def breaking(monkeypatch: pytest.MonkeyPatch) -> None:
     everybody = registry.readers()
-    monkeypatch.setattr(registry, "_all", lambda: ({**everybody, "breaking": _Breaking()}, {}))
+    monkeypatch.setattr(registry, "_readers_and_failures", lambda: ({**everybody, "breaking": _Breaking()}, {}))
 
 
 @pytest.mark.usefixtures("breaking")

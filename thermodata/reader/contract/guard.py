@@ -37,13 +37,13 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
     one that is cut off, it says so."""
     refuse_what_never_ends(path)
     with held_for(reader, path) as real:
-        recording = _described(reader, real, source)
+        recording = _checked_recording(reader, real, source)
     if (said := _cut_off_for(reader, path)) is not None:
         return replace(recording, complete=False, notes=(f"{said}: {_CUT}", *recording.notes))
     return recording
 
 
-def _described(reader: Reader, path: Path, source: Source) -> Recording:
+def _checked_recording(reader: Reader, path: Path, source: Source) -> Recording:
     watched = Watched(source)
     try:
         with asking(f"reader '{reader.name}' failed to describe a file", str(path)):

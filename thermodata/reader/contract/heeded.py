@@ -51,28 +51,28 @@ class _Heeded(dict[str, Any]):
         self.seen: set[object] = set()
         self.together = False
 
-    def _look(self, key: object) -> None:
+    def _note_key(self, key: object) -> None:
         if not self.together:
             self.seen.add(key)
 
     def __getitem__(self, key: str) -> Any:
-        self._look(key)
+        self._note_key(key)
         return super().__getitem__(key)
 
     def __contains__(self, key: object) -> bool:
-        self._look(key)
+        self._note_key(key)
         return super().__contains__(key)
 
     def get(self, key: str, default: Any = None) -> Any:
-        self._look(key)
+        self._note_key(key)
         return super().get(key, default)
 
     def pop(self, key: str, *default: Any) -> Any:
-        self._look(key)
+        self._note_key(key)
         return super().pop(key, *default)
 
     def setdefault(self, key: str, default: Any = None) -> Any:
-        self._look(key)
+        self._note_key(key)
         return super().setdefault(key, default)
 
     def __iter__(self) -> Iterator[str]:

@@ -78,23 +78,23 @@ def the_clock_is_absolute_or_relative(recording: Recording) -> str | None:
 # ---- a block -------------------------------------------------------------------------------------
 
 _Streams = Mapping[str, Mapping[str, str]]
-_kept: list[tuple[tuple[Signal, ...], _Streams]] = []
+_dtypes_asked_last: list[tuple[tuple[Signal, ...], _Streams]] = []
 
 
-def _declared(recording: Recording) -> _Streams:
+def _dtypes_by_stream(recording: Recording) -> _Streams:
     """stream -> signal -> dtype. Kept for the recordings asked for last: a file of 100,000 channels or streams has
     as many blocks, and each asks."""
-    for signals, streams in tuple(_kept):
+    for signals, streams in tuple(_dtypes_asked_last):
         if signals is recording.signals:
             return streams
     found: dict[str, dict[str, str]] = {}
     for signal in recording.signals:
         found.setdefault(signal.stream, {})[signal.name] = signal.dtype
-    _kept[:] = [*_kept[-1:], (recording.signals, found)]
+    _dtypes_asked_last[:] = [*_dtypes_asked_last[-1:], (recording.signals, found)]
     return found
 
 
-def _listed(names: Iterable[str]) -> str:
+def _quoted_names(names: Iterable[str]) -> str:
     return ", ".join(f"'{name}'" for name in sorted(map(str, names)))
 
 
@@ -106,7 +106,7 @@ def _first_unpaired(values: object, t_ns: Int1D) -> int:
 
 
 def the_stream_was_declared(recording: Recording, block: Block) -> Wrong | None:
-    if block.stream not in _declared(recording):
+    if block.stream not in _dtypes_by_stream(recording):
         return Wrong(f"stream '{block.stream}' was not declared")
     return None
 
@@ -124,11 +124,11 @@ def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Bloc
 
 
 def every_declared_signal_is_delivered_and_no_other(recording: Recording, block: Block) -> Wrong | None:
-    declared = _declared(recording).get(block.stream, {})
+    declared = _dtypes_by_stream(recording).get(block.stream, {})
     if declared.keys() != block.values.keys():
         missing, extra = declared.keys() - block.values.keys(), block.values.keys() - declared.keys()
-        said = [f"{_listed(extra)}, which describe() does not declare"] if extra else []
-        said += [f"no {_listed(missing)}, which describe() declares"] if missing else []
+        said = [f"{_quoted_names(extra)}, which describe() does not declare"] if extra else []
+        said += [f"no {_quoted_names(missing)}, which describe() declares"] if missing else []
         return Wrong(f"the block of stream '{block.stream}' holds {', and '.join(said)}")
     return None
 
@@ -142,7 +142,7 @@ def values_have_the_length_of_the_time(recording: Recording, block: Block) -> Wr
 
 
 def values_have_the_declared_dtype(recording: Recording, block: Block) -> Wrong | None:
-    declared = _declared(recording).get(block.stream, {})
+    declared = _dtypes_by_stream(recording).get(block.stream, {})
     for name, values in block.values.items():
         wanted = declared.get(name)
         if wanted == "str":

@@ -48,7 +48,7 @@ def _load(point: EntryPoint) -> Reader:
 
 
 @lru_cache(maxsize=1)
-def _all() -> tuple[dict[str, Reader], dict[str, str]]:
+def _readers_and_failures() -> tuple[dict[str, Reader], dict[str, str]]:
     good: dict[str, Reader] = {}
     bad: dict[str, str] = {}
     for name, point in installed().items():
@@ -70,12 +70,12 @@ def _warn_of(name: str, where: str, error: str) -> None:
 
 def readers() -> dict[str, Reader]:
     """The readers that load, by name. One that fails to import is a warning, and stands in failed_readers()."""
-    return dict(_all()[0])
+    return dict(_readers_and_failures()[0])
 
 
 def failed_readers() -> dict[str, str]:
     """Name -> error of the readers that are installed and do not load."""
-    return dict(_all()[1])
+    return dict(_readers_and_failures()[1])
 
 
 @lru_cache(maxsize=1)
@@ -91,7 +91,7 @@ def distribution_version(name: str) -> str:
 
 def reader(name: str) -> Reader:
     """The reader of this name. UsageError names the installed ones, or the command that installs some."""
-    good, bad = _all()
+    good, bad = _readers_and_failures()
     if name in good:
         return good[name]
     if name in bad:
@@ -109,7 +109,7 @@ def head(path: Path) -> Head:
     """A file's first 64 KiB, of a packed one as it was before that; UsageError where it cannot be read, or is none: a
     pipe, a device. FormatError for one that cannot be unpacked."""
     try:
-        with _shown(path) as real, opened(real) as file:
+        with _path_to_sniff(path) as real, opened(real) as file:
             start = file.read(HEAD_BYTES)
             return Head(real.name, real.stat().st_size, start)
     except OSError as error:
@@ -127,7 +127,7 @@ def files_in(path: Path) -> list[Path]:
     return [path] if _taken_as_it_is(path) else each_in(path)
 
 
-def _shown(path: Path) -> AbstractContextManager[Path]:
+def _path_to_sniff(path: Path) -> AbstractContextManager[Path]:
     return nullcontext(path) if _taken_as_it_is(path) else held(path)
 
 
@@ -155,7 +155,7 @@ def _sniffed(path: Path) -> tuple[dict[str, str], dict[str, str]]:
         try:
             reason = each.sniff(start)
         except ImportError as error:  # what it imports when it is first asked is missing: it loads for no file
-            good, bad = _all()
+            good, bad = _readers_and_failures()
             del good[name]
             bad[name] = f"{type(error).__name__}: {error}"
             _warn_of(name, installed()[name].value if name in installed() else "", bad[name])

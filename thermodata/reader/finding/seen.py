@@ -50,9 +50,10 @@ class SeenRows:
                 *(n for met in self._units if (n := met.note(self._notes))),
                 *self._of_clocks(),
             ],
-            "losses": [_lost(loss, self._absolute) for loss in self._losses],
+            "losses": [_loss_as_json(loss, self._absolute) for loss in self._losses],
             "streams": [
-                _shown(name, stream, self._signals[name], self._absolute) for name, stream in self._streams.items()
+                _stream_as_json(name, stream, self._signals[name], self._absolute)
+                for name, stream in self._streams.items()
             ],
         }
 
@@ -97,7 +98,7 @@ class _Stream:
             self.gaps += int((ahead > _GAP_FACTOR * self.step_ns).sum())
             self.largest = max(self.largest, int(ahead.max()))
         n = min(t.size, first_rows - len(self.head))
-        columns = [_plain(column[:n]) for column in block.values.values()] if n > 0 else []
+        columns = [_values_as_json(column[:n]) for column in block.values.values()] if n > 0 else []
         for i in range(n):
             values = zip(block.values, [column[i] for column in columns], strict=True)
             self.head.append({"t": time_shown(int(t[i]), absolute), **dict(values)})
@@ -105,7 +106,7 @@ class _Stream:
         self.last = int(t[-1])
 
 
-def _lost(loss: Loss, absolute: bool) -> dict[str, Any]:
+def _loss_as_json(loss: Loss, absolute: bool) -> dict[str, Any]:
     return {
         "where": loss.where,
         "reason": loss.reason,
@@ -115,7 +116,7 @@ def _lost(loss: Loss, absolute: bool) -> dict[str, Any]:
     }
 
 
-def _shown(name: str, stream: _Stream, signals: list[Signal], absolute: bool) -> dict[str, Any]:
+def _stream_as_json(name: str, stream: _Stream, signals: list[Signal], absolute: bool) -> dict[str, Any]:
     step = None if stream.step_ns is None else stream.step_ns / 1e9
     return {
         "stream": name,
@@ -148,7 +149,7 @@ def time_shown(t_ns: int, absolute: bool) -> str | float:
     )
 
 
-def _plain(values: Array) -> list[Any]:
+def _values_as_json(values: Array) -> list[Any]:
     """Values that JSON knows; NaN is None."""
     found: list[Any] = values.tolist()
     if values.dtype.kind in "fO" and any(isinstance(v, float) and not math.isfinite(v) for v in found):

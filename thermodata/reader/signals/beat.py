@@ -54,7 +54,7 @@ def beat_of(t_ns: Int1D, texts: Sequence[str], numbers: Float1D) -> Beat | None:
     sooner = steps[again & (steps <= limit)]
     if sooner.size >= max(3, _AGAIN * len(texts)):
         return Beat(_MISSED * int(np.median(sooner)), rests=False)
-    noisy = _turns(numbers) and int((forward > limit).sum()) <= _PAUSES
+    noisy = _turns_back_often(numbers) and int((forward > limit).sum()) <= _PAUSES
     return Beat(limit, rests=True) if noisy else None
 
 
@@ -72,6 +72,6 @@ def _heartbeat(steps: Int1D, again: Bool1D, texts: Sequence[str], limit_ns: int)
     return heartbeat if equal.mean() >= _STEADY and late.sum() > sooner else None
 
 
-def _turns(numbers: Float1D) -> bool:
+def _turns_back_often(numbers: Float1D) -> bool:
     steps = np.diff(numbers[np.isfinite(numbers)])
     return bool(steps.size > 1 and (steps[1:] * steps[:-1] < 0).mean() >= _TURNS)

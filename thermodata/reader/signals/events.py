@@ -114,15 +114,15 @@ class HeldRows(Generic[Stamp]):
         if self._ordered or not (steps < 0).any() or steps.min() <= -_STEP_NS:
             return place, times
         unique, inverse = np.unique(times, return_inverse=True)
-        if self._keep_all and (twice := self._twice(place, inverse)).any():
+        if self._keep_all and (twice := self._have_several_values(place, inverse)).any():
             # rows of a time at which a signal has two values stay as they are, one behind the other
-            turn = np.where(twice[inverse], _turns(times), 0)
+            turn = np.where(twice[inverse], _place_among_equal_times(times), 0)
             unique, inverse = np.unique(np.stack([times, turn]), axis=1, return_inverse=True)
             unique = unique[0]
         place[good] = inverse.ravel()
         return place, unique
 
-    def _twice(self, place: Int1D, inverse: Int1D) -> Bool1D:
+    def _have_several_values(self, place: Int1D, inverse: Int1D) -> Bool1D:
         """At which times a signal has several values; inverse: which time each row has."""
         found = np.zeros(int(inverse.max(initial=-1)) + 1, bool)
         for rows, _, _ in self._changes.values():
@@ -184,7 +184,7 @@ class HeldRows(Generic[Stamp]):
         self._written[name] = int(written[-1]) if written.size else NAT
 
 
-def _turns(times: Int1D) -> Int1D:
+def _place_among_equal_times(times: Int1D) -> Int1D:
     """How many of the times before it are the same as each, shape (n,)."""
     order = np.argsort(times, kind="stable")
     t = times[order]

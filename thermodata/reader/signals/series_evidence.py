@@ -82,7 +82,7 @@ def judge(rows: Rows, header: Header, *, absolute: bool) -> Verdict:
     steps = np.diff(rows.t_ns)
     if (back := int((steps < 0).sum())) and _begins_anew(rows):
         far = int(-steps[steps < 0].sum()) >= _BACK * int(steps[steps > 0].sum())
-        return _plain(absolute and far and 2 * back >= changes and (header.named or words))
+        return _plain_or_one_series(absolute and far and 2 * back >= changes and (header.named or words))
     mixed = changes / (2 * (rows.codes.size - int(counts.max()))) >= _MIXED
     if _meet(rows):
         return _who_meets(rows, counts, header) if mixed else Verdict.ONE
@@ -108,7 +108,7 @@ def judge(rows: Rows, header: Header, *, absolute: bool) -> Verdict:
     return Verdict.DOUBTFUL if (words or (in_turn and even)) and _jumps(rows) == 1.0 else Verdict.ONE
 
 
-def _plain(so: bool) -> Verdict:
+def _plain_or_one_series(so: bool) -> Verdict:
     return Verdict.PLAIN if so else Verdict.ONE
 
 
@@ -155,7 +155,7 @@ def _one_clock(rows: Rows, counts: Int1D) -> bool:
         return True
     if whole >= _HALTING and _steady(own) < _WORSE * whole:
         return True
-    return _spread(table) < min(_NARROW, 0.5 * _spread(own))
+    return _spread_of_steps(table) < min(_NARROW, 0.5 * _spread_of_steps(own))
 
 
 def _clocks_apart(rows: Rows, counts: Int1D) -> bool:
@@ -174,7 +174,7 @@ def _steady(parts: Sequence[Float1D]) -> float:
     return like / max(1, total)
 
 
-def _spread(parts: Sequence[Float1D]) -> float:
+def _spread_of_steps(parts: Sequence[Float1D]) -> float:
     """Over how many times their part's median nine of ten steps spread."""
     usual = [(steps, float(np.median(steps))) for steps in parts if steps.size]
     relative = [steps / m for steps, m in usual if m > 0]

@@ -48,7 +48,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     stands = table.stands if table.series is None else frozenset[int]()
-    heads = _stated(table)
+    heads = _stated_by_column(table)
     found = tuple(
         Signal(
             names[i],
@@ -83,7 +83,7 @@ def _said_of(table: Table, column: int, heads: Mapping[str, Mapping[str, str]]) 
     return {**table.layout.said_of(column), **table.qualities.properties(name), **heads.get(name, {})}
 
 
-def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
+def _stated_by_column(table: Table) -> Mapping[str, Mapping[str, str]]:
     """Name of a column -> what lines above the names, and the first below them, state of its unit and scale."""
     names, first = table.layout.names, table.layout.first
     lines = table.sample.head[: first + SCALES_BELOW]

@@ -110,7 +110,7 @@ def moment_in(text: str, seconds: bool = True) -> Zero | None:
         return None
     part = match.groupdict()
     year, month, day = (
-        _first(part, keys) for keys in (("y", "y2", "y3", "y4", "y5"), ("m", "m2"), ("d", "d2", "d3", "d4"))
+        _first_filled(part, keys) for keys in (("y", "y2", "y3", "y4", "y5"), ("m", "m2"), ("d", "d2", "d3", "d4"))
     )
     if (name := part["n3"] or part["n4"]) is not None:
         month = str(_MONTHS.index(name) + 1)
@@ -135,5 +135,5 @@ def moment_in(text: str, seconds: bool = True) -> Zero | None:
     return Zero(round((moment - ahead - _OF_UNIX).total_seconds()), not zoned, part_ns)
 
 
-def _first(part: dict[str, str | None], keys: tuple[str, ...]) -> str | None:
+def _first_filled(part: dict[str, str | None], keys: tuple[str, ...]) -> str | None:
     return next((part[k] for k in keys if part[k] is not None), None)

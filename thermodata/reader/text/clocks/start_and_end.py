@@ -33,7 +33,7 @@ def interval_note(columns: Sequence[int], seen: FirstRows) -> list[str]:
             continue
         first, last = (other, own) if ends else (own, other)
         which = "end" if ends else "beginning"
-        declared = [_shown(columns), *map(_shown, _with_its_date(other, columns, seen.rows))]
+        declared = [_as_declared(columns), *map(_as_declared, _with_its_date(other, columns, seen.rows))]
         return [
             f"each row has a time from '{seen.names[first]}' to '{seen.names[last]}': it stands at its {which}, "
             f"'{seen.names[own]}', and a mean would stand between them: {ASK} declare table: {{time: {{column: "
@@ -54,7 +54,7 @@ def _with_its_date(other: int, columns: Sequence[int], data: Sequence[Sequence[C
     return [] if _are_dates(columns[0], data) else [[other]]
 
 
-def _shown(columns: Sequence[int]) -> str:
+def _as_declared(columns: Sequence[int]) -> str:
     """Columns as they are declared, from 1."""
     return str([i + 1 for i in columns] if len(columns) > 1 else columns[0] + 1)
 

@@ -61,7 +61,7 @@ def time_of(said: Mapping[str, Any], seen: FirstRows, likely: tuple[int, ...] = 
     else:
         if not told and (parts := _found_parts(seen, likely)) is not None:
             return parts
-        columns = _found(form, seen, likely)
+        columns = _time_columns(form, seen, likely)
         if not told and not likely:
             _ask_what_is_open(columns, seen)
     notes = zone_notes(columns, seen)
@@ -128,7 +128,7 @@ def _tells_all(columns: tuple[int, ...], parts: tuple[int, ...], data: Sequence[
     return len(columns) > 1 or tell_the_hour(cells)
 
 
-def _found(form: str | None, seen: FirstRows, likely: tuple[int, ...]) -> tuple[int, ...]:
+def _time_columns(form: str | None, seen: FirstRows, likely: tuple[int, ...]) -> tuple[int, ...]:
     """The columns of `find_time`, or times in words whose `form` is declared. QuestionError, FormatError: there is
     none."""
     try:

@@ -99,7 +99,7 @@ def _looked_at(seen: FirstRows, likely: tuple[int, ...]) -> _Columns:
     pointed = [i for i in words if dates and are_pointed_clocks(i, seen)]
     clocks = [i for i in places if _are(filled[i], is_clocked, 0.8)]
     of_day = [i for i in words if since_midnight(seen.names[i]) is not None and _are(filled[i], is_number, 0.6)]
-    standing = _standing(
+    standing = _unchanging_dates(
         {i: [c for c in filled[i] if is_dated(c)] for i in dates},
         [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
     )
@@ -154,7 +154,7 @@ def _by_first_unit(of: _Columns) -> tuple[int, ...]:
 
 def _by_spans(of: _Columns) -> tuple[int, ...]:
     names = of.seen.names
-    called = (i for i in range(len(names)) if is_time_header(names[i]) or not _named(names[i]))
+    called = (i for i in range(len(names)) if is_time_header(names[i]) or not _has_own_name(names[i]))
     return tuple(islice((i for i in called if _are_rising(of.filled[i])), 1))
 
 
@@ -162,7 +162,7 @@ def _by_damaged_dates(of: _Columns) -> tuple[int, ...]:
     return tuple(islice((i for i in of.places if i not in of.standing and _are(of.filled[i], is_dated, 0.3)), 1))
 
 
-def _named(header: str) -> bool:
+def _has_own_name(header: str) -> bool:
     """Whether a column has a name of its own."""
     return re.fullmatch(r"column \d+|Unnamed: \d+|index", header) is None
 
@@ -181,7 +181,7 @@ def tell_the_hour(cells: Sequence[Cell]) -> bool:
     )
 
 
-def _standing(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cell]]) -> set[int]:
+def _unchanging_dates(dates: Mapping[int, Sequence[Cell]], clocks: Sequence[Sequence[Cell]]) -> set[int]:
     """Columns of dates that are one and the same in all rows: of when something was calibrated, not of when rows were
     measured. A day stands beside a time of day that goes on."""
     running = any(len(set(cells)) > 1 for cells in clocks)

@@ -92,7 +92,7 @@ def spans(seen: FirstRows) -> tuple[list[Span], list[str]]:
     FormatError where a second time may be one of its own rows or of the first's.
     """
     named = {i: n for i, name in enumerate(seen.names) if (n := time_name(name))} or _by_unit(seen)
-    said = {i: n for i, n in named.items() if _rises(i, n, seen.units[i], seen.rows)}
+    said = {i: n for i, n in named.items() if _goes_on_like_time(i, n, seen.units[i], seen.rows)}
     by_name, left = tagged(seen, tuple(said))
     if by_name and left and not _one_clock([i for one in by_name for i in one.times], seen):
         raise _of_no_name([seen.names[i] for i in left], seen)
@@ -106,9 +106,9 @@ def spans(seen: FirstRows) -> tuple[list[Span], list[str]]:
     for run in runs[1:]:
         if all(said[i].word != first.word or said[i].bare != first.bare for i in run[:1]):
             notes += _other(runs[0][0], run[0], said, seen)
-        elif not first.bare and not (_beside(run, said, seen) and _beside(runs[0], said, seen)):
+        elif not first.bare and not (_names_next_column(run, said, seen) and _names_next_column(runs[0], said, seen)):
             _ask_if_apart(runs[0][0], run[0], seen)
-            notes.append(_kept(seen.names[run[0]]))
+            notes.append(_note_of_kept_signal(seen.names[run[0]]))
         else:
             own.append(run)
     if len(own) < 2:
@@ -122,7 +122,7 @@ def spans(seen: FirstRows) -> tuple[list[Span], list[str]]:
             hint=_HINT,
         )
     if own[-1][-1] == len(seen.names) - 1:
-        notes.append(_kept(seen.names[own.pop()[0]]))
+        notes.append(_note_of_kept_signal(seen.names[own.pop()[0]]))
     if len(own) < 2 or (first.word == "t" and own[0][0] != 0):
         return [], notes
     edges = [0, *(run[0] for run in own[1:]), len(seen.names)]
@@ -142,7 +142,7 @@ def _by_unit(seen: FirstRows) -> dict[int, _Name]:
     return {i: _Name(words[0], "", True) for i in alike} if alike[:1] == [0] and len(alike) > 1 else {}
 
 
-def _kept(name: str) -> str:
+def _note_of_kept_signal(name: str) -> str:
     return (
         f"column '{name}' is named like a time and rises: it is read as a signal; declare table: {{time: "
         "[{column: ...}, {column: ...}]} if columns behind it have it for their time"
@@ -160,7 +160,7 @@ def _runs(said: Mapping[int, _Name]) -> list[list[int]]:
     return runs
 
 
-def _beside(run: Sequence[int], said: Mapping[int, _Name], seen: FirstRows) -> bool:
+def _names_next_column(run: Sequence[int], said: Mapping[int, _Name], seen: FirstRows) -> bool:
     """Whether 'CH1 time' stands before a column of CH1."""
     if run[-1] + 1 >= len(seen.names):
         return False
@@ -169,7 +169,7 @@ def _beside(run: Sequence[int], said: Mapping[int, _Name], seen: FirstRows) -> b
     return beside in behind or behind in beside
 
 
-def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[Cell]]) -> bool:
+def _goes_on_like_time(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[Cell]]) -> bool:
     """Dates and times of day, whose unit says how they are written ("hh:mm:ss"), or numbers of a unit of time that
     never fall; what is only called t must rise with every row."""
     cells = [r[column] for r in data if not is_empty(r[column])]
@@ -191,9 +191,9 @@ def _other(first: int, second: int, said: Mapping[int, _Name], seen: FirstRows) 
     apart from the first is asked."""
     if said[second].word == "t" and seen.units[second] is None:
         return []  # a temperature that rises
-    apart = _apart(first, second, seen)
+    apart = _difference_of_times(first, second, seen)
     if apart is None or (apart >= 0 and (not said[second].bare or second == len(seen.names) - 1)):
-        return [_kept(seen.names[second])]
+        return [_note_of_kept_signal(seen.names[second])]
     if apart == 0:
         return []
     raise _question(first, second, seen)
@@ -202,11 +202,11 @@ def _other(first: int, second: int, said: Mapping[int, _Name], seen: FirstRows) 
 def _ask_if_apart(first: int, second: int, seen: FirstRows) -> None:
     """FormatError where a second time of the same word is another clock than the first: what stands behind it would
     get times that are not its own."""
-    if second < len(seen.names) - 1 and _apart(first, second, seen):
+    if second < len(seen.names) - 1 and _difference_of_times(first, second, seen):
         raise _question(first, second, seen)
 
 
-def _apart(first: int, second: int, seen: FirstRows) -> float | None:
+def _difference_of_times(first: int, second: int, seen: FirstRows) -> float | None:
     """By how much two times differ: 0 where they are one clock (but for an offset), -1 where one stands alone in a row;
     None where that cannot be told, for one is a date."""
     if sum(is_empty(r[first]) != is_empty(r[second]) for r in seen.rows):
@@ -244,7 +244,7 @@ def _one_clock(times: Sequence[int], seen: FirstRows) -> bool:
             return False
         if all(a == b for a, b in pairs):
             continue
-        apart = _apart(first, other, seen)
+        apart = _difference_of_times(first, other, seen)
         stamped = [any(is_stamp(p[k]) for p in pairs) for k in (0, 1)]
         if apart is None and stamped[0] is not stamped[1]:
             continue

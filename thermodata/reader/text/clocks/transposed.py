@@ -18,10 +18,10 @@ ADVICE = (
 def is_transposed(seen: FirstRows) -> bool:
     """Whether a table is far wider than long, and numbers rise all along one of its rows."""
     wide = len(seen.names) >= max(_WIDE, _TIMES * len(seen.rows))
-    return wide and any(_rises(row) for row in (seen.names, *seen.rows))
+    return wide and any(_rises_along_row(row) for row in (seen.names, *seen.rows))
 
 
-def _rises(row: Sequence[Cell]) -> bool:
+def _rises_along_row(row: Sequence[Cell]) -> bool:
     """Along the row, but for a name at its begin."""
     numbers = [number_of(cell) for cell in row[1:] if cell not in ("", None)]
     known = [n for n in numbers if n is not None]

@@ -95,7 +95,7 @@ def _decoded(lines: list[bytes], encoding: str) -> str | None:
         return None
 
 
-def _told(text: str, encoding: str) -> tuple[float, tuple[str, ...]]:
+def _share_in_words(text: str, encoding: str) -> tuple[float, tuple[str, ...]]:
     """(the share of a text's letters that stand in words, the words)."""
     letters = set(_LETTERS.findall(text))
     count = sum(map(len, letters))
@@ -108,7 +108,7 @@ def east_asian(data: bytes) -> tuple[str, tuple[str, ...]] | None:
     be in two."""
     lines = list(_lines(data))
     texts = {name: text for name in ENCODINGS if lines and (text := _decoded(lines, name)) is not None}
-    told = sorted(((*_told(text, name), name) for name, text in texts.items()), reverse=True)
+    told = sorted(((*_share_in_words(text, name), name) for name, text in texts.items()), reverse=True)
     if not told:
         return None
     share, words, name = told[0]

@@ -133,11 +133,11 @@ def _try(data: bytes, encoding: str) -> str:
             where=f"byte {error.start}",
             expected=encoding,
             got=data[error.start : error.start + 4].hex(" "),
-            hint=_wider(data, encoding) or "declare the source's encoding",
+            hint=_hint_of_wider(data, encoding) or "declare the source's encoding",
         ) from None
 
 
-def _wider(data: bytes, encoding: str) -> str | None:
+def _hint_of_wider(data: bytes, encoding: str) -> str | None:
     """What to declare where a narrower name of the same encoding was, as shift_jis for a text with ① or №."""
     wider = _WIDER.get(codecs.lookup(encoding).name)
     if wider is None:

@@ -106,7 +106,7 @@ _SIGNS = re.compile(
 Table = dict[tuple[int, str, bytes], int]
 
 
-def _around(word: bytes) -> Iterator[tuple[int, tuple[tuple[str, bytes], ...]]]:
+def _letter_with_neighbours(word: bytes) -> Iterator[tuple[int, tuple[tuple[str, bytes], ...]]]:
     """(letter, what stands beside it) of each differing letter of a word in small letters."""
     padded = b"__" + word + b"__"
     for at, letter in enumerate(padded):
@@ -126,7 +126,7 @@ def _learned() -> tuple[Table, Table]:
         seen: Counter[tuple[int, str, bytes]] = Counter()
         for word in sorted(set(words.split())):
             seen[0, "word", word.encode(encoding)] = 1
-            for letter, beside in _around(word.encode(encoding)):
+            for letter, beside in _letter_with_neighbours(word.encode(encoding)):
                 seen.update((letter, where, text) for where, text in (("", b""), *beside))
         tables.append(dict(seen))
     return tables[0], tables[1]
@@ -138,7 +138,7 @@ def _word(word: bytes) -> float:
         return 0.0  # 'è' alone and 'č. 3' are as usual; 'à' is one word only
     western, central = _learned()
     total = 2 * _WORD_LIMIT * ((0, "word", word) in western) - 2 * _WORD_LIMIT * ((0, "word", word) in central)
-    for letter, beside in _around(word):
+    for letter, beside in _letter_with_neighbours(word):
         of_west, of_east = western.get((letter, "", b""), 0), central.get((letter, "", b""), 0)
         if not (of_west and of_east):  # a letter of one side only, as \xb9 within a word
             total += _WORD_LIMIT * (bool(of_west) - bool(of_east))

@@ -23,11 +23,11 @@ _FEWEST = 2  # columns that a row of comments, or a list without a header, speak
 def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
-    rows = _parted(rows, names)
+    rows = _name_and_comment_apart(rows, names)
     at = names_at(rows, names)
     below = [row for row in rows[at + 1 :] if row and is_of_descriptions(row)]
     rows = rows[:at]
-    key_at, listed = _listed(rows, names)
+    key_at, listed = _rows_of_columns(rows, names)
     said, units = _of_list(rows, key_at, listed, names)
     heads = {min(at for at, _ in listed) - 1} if listed else set()
     for at, row in enumerate(rows):
@@ -38,7 +38,7 @@ def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[l
     return said, units
 
 
-def _parted(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[Sequence[str]]:
+def _name_and_comment_apart(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[Sequence[str]]:
     """The rows, those of one cell that say a column's name and more (`# Channel 1: front bearing`) as these two."""
     known = {_key(n) for n in names if n}
 
@@ -65,11 +65,11 @@ def _of_row(row: Sequence[str], names: Sequence[str]) -> list[str]:
     nothing = [""] * len(names)
     if not OF_TEXTS.fullmatch(cells[0].strip(" .:")) or len(row) > len(names):
         return nothing
-    said = ["", *(_said(c, n) for c, n in zip(cells[1:], names[1:], strict=True))]
+    said = ["", *(_comment_beyond_name(c, n) for c, n in zip(cells[1:], names[1:], strict=True))]
     return said if sum(map(bool, said)) >= max(_FEWEST, len(names) // 2) else nothing
 
 
-def _listed(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[int, list[tuple[int, str]]]:
+def _rows_of_columns(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[int, list[tuple[int, str]]]:
     """(which cell of a row names a column, [(place of a row, the column that it lists)]): "CH1","Front","TEMP", or
     behind a number of its own, "1","AI 1","Bearing"; there each is listed once, and is no number itself."""
     known = {_key(n) for n in names if n}
@@ -101,7 +101,7 @@ def _of_list(
         of_unit = next((k for k, c in enumerate(header) if k > key_at and OF_UNITS.fullmatch(c.strip(" .:"))), -1)
         units = {key: _unit(rows[at], of_unit) for at, key in listed}
     return (
-        [_said(said.get(_key(n), ""), n) if n else "" for n in names],
+        [_comment_beyond_name(said.get(_key(n), ""), n) if n else "" for n in names],
         [units.get(_key(n)) if n else None for n in names],
     )
 
@@ -111,7 +111,7 @@ def _unit(row: Sequence[str], column: int) -> str | None:
     return cell if looks_like_unit(cell) and not cell[0].isdigit() else None
 
 
-def _said(cell: str, name: str) -> str:
+def _comment_beyond_name(cell: str, name: str) -> str:
     """A cell that says more of a column than its name does."""
     bare = cell.strip()
     nothing = is_number(bare) or is_stamp(bare) or looks_like_unit(bare) or not any(c.isalpha() for c in bare)

@@ -118,10 +118,10 @@ def told_alike(cells: Sequence[str]) -> tuple[tuple[str, str], ...]:
     filled = len(cells)
     while filled and not cells[filled - 1].strip():
         filled -= 1
-    return tuple(map(_told, cells[:filled]))
+    return tuple(map(_name_and_unit, cells[:filled]))
 
 
-def _told(cell: str) -> tuple[str, str]:
+def _name_and_unit(cell: str) -> tuple[str, str]:
     """(name, unit) of one cell, '' for none."""
     alone = cell.strip("[]() ")
     name, unit = ("", alone) if looks_like_unit(alone) else split_unit(cell)

@@ -39,15 +39,15 @@ def names_and_units(
 ) -> tuple[list[str], list[str | None], list[str]]:
     """Names, units, and heads of groups over the names, '' where there is none, from the rows before the data; rows
     that do not span the table are preamble."""
-    return _read(rows, width, units_row)[:3]
+    return _read_header(rows, width, units_row)[:3]
 
 
 def place_of_names(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> int | None:
     """Which of the rows before the data that of the names is; None where none is."""
-    return _read([r[:width] for r in rows], width, units_row)[3]
+    return _read_header([r[:width] for r in rows], width, units_row)[3]
 
 
-def _read(
+def _read_header(
     rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
 ) -> tuple[list[str], list[str | None], list[str], int | None]:
     """Names, units, heads of groups, and the place of the names."""
@@ -61,7 +61,7 @@ def _read(
         units = as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
     at_all = _spanning(texts, width)
     spanning = [texts[i] for i in at_all]
-    named = _named(texts, at_all, width)
+    named = _row_of_names(texts, at_all, width)
     if units_row is None and len(spanning) >= 2:
         times = _times_among(spanning[-1 if named is None else named])
         if named is not None and (below := next((r for r in spanning[named + 1 :] if of_units(r, times)), None)):
@@ -123,7 +123,7 @@ def _labelled_units(texts: Sequence[Sequence[str]]) -> int | None:
     return None
 
 
-def _named(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int | None:
+def _row_of_names(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int | None:
     """Which of the rows that span the table (at: their places) is that of names, where others stand below it that are
     none: it names every column, the time among them, and the rows below it are units and comments on these, repeat
     themselves (a kind of average, a rate) or write no time into the column of the time. None where the last row, but
@@ -214,7 +214,7 @@ def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
     spanning = _spanning([texts[i] for i in at], width)
     if not spanning:
         return []
-    named = _named([texts[i] for i in at], spanning, width)
+    named = _row_of_names([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     times = [] if named is None else _times_among(texts[at[spanning[named]]])
     apart = [i for i in below if any(told[i]) and not is_of_descriptions(texts[i])]

@@ -28,7 +28,7 @@ _MARK = re.compile(r"^\s*[#%;]+\s*")  # of a comment that holds the header
 def unit_of_time(header: str, unit: str | None = None) -> str | None:
     """The unit of time that a header names, in brackets or behind the word for time: "Zeit in h", "t / min", "time_ms".
     unit: what was split from it, or stands in a row of its own. None where it names none."""
-    name, own = _split(header)
+    name, own = _name_and_time_unit(header)
     for text in (unit, own):
         if text is not None:
             return known_unit(text)
@@ -43,7 +43,7 @@ def is_time_header(header: str, unit: str | None = None) -> bool:
     """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
     if since_midnight(header) is not None:
         return True
-    name, own = _split(header)
+    name, own = _name_and_time_unit(header)
     name = _MARK.sub("", name).strip()
     if unit is not None and unit_of_time(header, unit) is None:
         return False
@@ -70,7 +70,7 @@ def says_time(cell: str) -> bool:
     )
 
 
-def _split(header: str) -> tuple[str, str | None]:
+def _name_and_time_unit(header: str) -> tuple[str, str | None]:
     """(name, unit or None), a count from a date as a unit, too: 'Timestamp (OADate)'."""
     if (stated := count_in(header)) is not None:  # 'seconds since 2000-01-01', 't [s since 1900-01-01]'
         return "time", stated

@@ -40,7 +40,7 @@ def width_of(body: Sequence[Sequence[Cell]]) -> int:
 
 def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     """The index of the first row of data. width: cells of such a row. FormatError where there is none."""
-    stamped, dates = _stamped(body, width), _dates(body, width)
+    stamped, dates = _columns_of_times(body, width), _dates(body, width)
     # a word in the first cell is a label where rows hold none there
     firsts = [r[0] for r in second_half(body) if len(r) >= width - 1]
     labels = mostly(firsts, lambda c: is_number(c) or is_stamp(c), 0.9, len(firsts))
@@ -103,7 +103,7 @@ def _dates(body: Sequence[Sequence[Cell]], width: int) -> set[int] | None:
     return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_dated, 0.9, len(late))}
 
 
-def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
+def _columns_of_times(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
     """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
     late = [r for r in second_half(body) if len(r) >= width - 1]
     if len(late) < 5:

@@ -122,7 +122,7 @@ def find_begin(
         return None, None
     order = declared if declared in ORDERS else None
     said, unread = head_start(lines, order, booted=declared is not None), unread_start(lines, order, first.of_day)
-    begin = None if said is None else _begin(said, first, sure=declared is None)
+    begin = None if said is None else _begin_by_head(said, first, sure=declared is None)
     if begin is None and declared == HEAD and (said is not None or unread is not None):
         raise _not_taken(said, unread, where)
     # a moment that is less surely a start is none of the rows where the surer one may be another
@@ -158,7 +158,7 @@ def anew_note(begin: Begin) -> str:
     return f"times count anew from the start in a further head: '{begin.text}'"
 
 
-def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
+def _begin_by_head(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
     """What the rows count from; None where the head does not tell it for sure. sure: only where it does by itself."""
     if said.several or not first.ns:
         return None

@@ -37,7 +37,7 @@ class SaidEpoch:
 
     def of(self, unit: str | None) -> str | None:
         """The unit with its epoch of a column of times in 's', 'min', ...; None where the two don't go together."""
-        own = _plain(unit) if unit is not None else self.unit
+        own = _plain_time_unit(unit) if unit is not None else self.unit
         if own is None or (self.unit is not None and own != self.unit):
             return None
         if self.zero is not None:
@@ -70,12 +70,12 @@ def epoch_said(lines: Iterable[Sequence[str]]) -> SaidEpoch | None:
         filled = [c for c in cells if c.strip(_MARKS)]
         label = ": " if len(filled) == 2 and not filled[0].rstrip().endswith((":", "=")) else " "
         text = " ".join(label.join(filled).strip(_MARKS).split())
-        if len(text) <= 200 and (said := _said(text)) is not None:
+        if len(text) <= 200 and (said := _epoch_in(text)) is not None:
             found.append(said)
     return found[0] if len({(s.unit, s.zero, s.scale) for s in found}) == 1 else None
 
 
-def _said(text: str) -> SaidEpoch | None:
+def _epoch_in(text: str) -> SaidEpoch | None:
     if (counted := since(text)) is not None:
         scale = leaping(text, counted[1])
         return SaidEpoch(*counted, "", text) if scale is None else SaidEpoch(counted[0], None, scale, text)
@@ -88,7 +88,7 @@ def _said(text: str) -> SaidEpoch | None:
     return None if named is None else SaidEpoch(None, None, named["scale"].lower(), text)
 
 
-def _plain(unit: str) -> str | None:
+def _plain_time_unit(unit: str) -> str | None:
     """'s' of 'Sekunden'."""
     seconds = SECONDS.get(unit.strip().lower())
     return next((u for u in _PLAIN if seconds is not None and SECONDS[u] == seconds), None)

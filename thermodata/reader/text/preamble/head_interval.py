@@ -31,7 +31,7 @@ def interval_above(lines: Iterable[Sequence[str]], rates: bool = True) -> tuple[
     """(the time from row to row [s], the line that says so); None where none says one, or several say others. rates:
     whether lines that say a rate count, too."""
     found: dict[float, str] = {}
-    for cells in _with_units_below([_once(cells) for cells in lines]):
+    for cells in _with_units_below([_said_of_all_once(cells) for cells in lines]):
         text = " ".join(cells).strip("#%;/* \t\"'")
         match = re.fullmatch(
             r"(?P<label>[^:=\d\[(]+?)\s*(?:[\[(](?P<unit>[^\W\d]+)[\])])?\s*[:=]?\s*(?P<value>\d\S*.*)", text
@@ -51,7 +51,7 @@ def interval_above(lines: Iterable[Sequence[str]], rates: bool = True) -> tuple[
     return next(iter(found.items())) if len(found) == 1 else None
 
 
-def _once(cells: Sequence[str]) -> list[str]:
+def _said_of_all_once(cells: Sequence[str]) -> list[str]:
     """The filled cells of a line; of one that says of all channels the same, its label and that: 'HUnit,s,s,s'."""
     filled = [c.strip() for c in cells if c and c.strip()]
     return filled[:2] if len(filled) > 2 and len(set(filled[1:])) == 1 else filled

@@ -106,7 +106,7 @@ def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted:
     if not found:
         return None
     first = max(found, key=lambda m: (m.says, m.zoned))
-    several = any(m.says == first.says and not _same(m, first) for m in found)
+    several = any(m.says == first.says and not _are_one_moment(m, first) for m in found)
     date = first.date_ns if first.date_ns is not None else 0
     return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several, first.supposed)
 
@@ -125,7 +125,7 @@ def unread_start(lines: Sequence[Sequence[str]], order: str | None = None, dates
     return max(each, key=lambda m: m.says, default=None)
 
 
-def _same(one: Moment, other: Moment) -> bool:
+def _are_one_moment(one: Moment, other: Moment) -> bool:
     """Whether two lines say one moment: the same, or one in UTC and the other in the time of a place."""
     apart = abs(_ns(one) - _ns(other))
     in_zones = one.zoned != other.zoned and apart <= _FARTHEST_NS and apart % _QUARTER_NS <= _NEAR_NS
@@ -143,7 +143,7 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
     left = [without_pass(c.translate(_FULL_WIDTH)) for c in left if 0 < len(c) <= _LONGEST_CELL]
     k = 0
     while k < len(left):
-        label, zone, value = _split(left[k])
+        label, zone, value = _label_zone_value(left[k])
         says = said_by(label)
         if says is None:
             k += 1
@@ -152,7 +152,7 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
         found, used = None, 0
         for n in range(min(_MOST_CELLS, len(left) - k)):
             text = " ".join([*values, *left[k + 1 : k + 1 + n]]).strip(" \"'")
-            if text and (read := _read(text, zone, says, f"{label}: {text}", order)) is not None:
+            if text and (read := _moment_in(text, zone, says, f"{label}: {text}", order)) is not None:
                 found, used = read, n
         if found is not None:
             yield found
@@ -164,15 +164,15 @@ def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment | Unrea
 def _in_parts(cell: str) -> list[str]:
     """The parts of a title that names a start behind other things: 'Machine MCV 750   start 04.05.2026 08:00'; else the
     whole cell."""
-    label = _split(" ".join(cell[:_LONGEST_CELL].split()))[0]
+    label = _label_zone_value(" ".join(cell[:_LONGEST_CELL].split()))[0]
     if len(cell) > _LONGEST_CELL or (said_by(label) is TimeLabel.BEGAN and not re.search(r"\d", label)):
         return [cell]
     parts = _PARTS.split(cell)
-    began = [said_by(_split(part)[0]) is TimeLabel.BEGAN for part in parts]
+    began = [said_by(_label_zone_value(part)[0]) is TimeLabel.BEGAN for part in parts]
     return parts if any(began) else [cell]
 
 
-def _split(cell: str) -> tuple[str, str, str]:
+def _label_zone_value(cell: str) -> tuple[str, str, str]:
     """(label, the zone that it names, value) of a cell; the whole cell is the label where there is no value in it."""
     zoned = _ZONED_LABEL.match(cell)
     zone = ""
@@ -188,7 +188,7 @@ def _split(cell: str) -> tuple[str, str, str]:
     return cell.strip(" :="), zone, ""
 
 
-def _read(text: str, zone: str, says: TimeLabel, line: str, order: str | None) -> Moment | None:
+def _moment_in(text: str, zone: str, says: TimeLabel, line: str, order: str | None) -> Moment | None:
     """A text as a moment, as it stands or as people write one; None where it is none. zone: that its label names."""
     text = without_places(text)
     if len(text) > _LONGEST_TIME or not re.search(r"\d", text) or _NUMBERED.fullmatch(text):

@@ -39,12 +39,12 @@ def pass_said(texts: Iterable[str], hour: RepeatedHour, zone: str) -> tuple[bool
     zone: whose own abbreviations count, beside those that name one offset alone."""
     found: dict[bool, str] = {}
     for text in texts:
-        for second, word in _said(text, hour, zone):
+        for second, word in _passes_named(text, hour, zone):
             found.setdefault(second, word)
     return next(iter(found.items())) if len(found) == 1 else None
 
 
-def _said(text: str, hour: RepeatedHour, zone: str) -> Iterator[tuple[bool, str]]:
+def _passes_named(text: str, hour: RepeatedHour, zone: str) -> Iterator[tuple[bool, str]]:
     for match in _SPOKEN.finditer(text):
         yield match["winter"] is not None, match[0]
     own = {hour.abbreviation(ZoneInfo(zone), second): second for second in (False, True)}

@@ -37,8 +37,8 @@ def scales_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping
                 if name and to_bool(text) is None and of_either_mark(text) is not None:
                     found.setdefault(name, {})[key] = text
         elif count := _count_in(text := " ".join(filter(None, cells))):
-            for name in _named(text[: count.start()], names, count["unit"]):
-                found.setdefault(name, {})[f"1 {_one(count['key'])}"] = count["number"]
+            for name in _columns_scaled(text[: count.start()], names, count["unit"]):
+                found.setdefault(name, {})[f"1 {_singular(count['key'])}"] = count["number"]
     return found
 
 
@@ -79,16 +79,16 @@ def _measures(unit: str) -> bool:
     return is_unit(unit) and not converts(unit, "s")
 
 
-def _one(key: str) -> str:
+def _singular(key: str) -> str:
     """'counts' -> 'count', '1digit' -> 'digit', 'increments' -> 'inkrement'."""
     return re.sub(r"(?i)^1 ?|(?<=[a-z])e?s?$", "", key).replace("ncrement", "nkrement")
 
 
-def _named(text: str, names: Sequence[str], unit: str | None) -> Sequence[str]:
+def _columns_scaled(text: str, names: Sequence[str], unit: str | None) -> Sequence[str]:
     """The columns that a text names; where it names none, those in such a unit, or else those in none; all but the
     first, of the time, where no unit is said."""
     folded = text.casefold()
-    own = [n for n in names if n and any(_holds(folded, said) for said in spellings(n))]
+    own = [n for n in names if n and any(_holds_word(folded, said) for said in spellings(n))]
     if own:
         return own
     told = {n: _unit_of(n) for n in names[1:] if n}
@@ -97,7 +97,7 @@ def _named(text: str, names: Sequence[str], unit: str | None) -> Sequence[str]:
     return [n for n, u in told.items() if u and converts(unit, u)] or [n for n, u in told.items() if u is None]
 
 
-def _holds(text: str, said: str) -> bool:
+def _holds_word(text: str, said: str) -> bool:
     return bool(said) and re.search(rf"(?<!\w){re.escape(said)}(?!\w)", text) is not None
 
 

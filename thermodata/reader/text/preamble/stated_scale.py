@@ -36,10 +36,10 @@ class Stated:
 
 def stated_scales(signal: Signal) -> list[Stated]:
     """What is stated of a signal and changes its values; nothing where its reader applies a scaling."""
-    return [] if signal.scaling is not None else list(_stated(signal))
+    return [] if signal.scaling is not None else list(_stated_factors(signal))
 
 
-def _stated(signal: Signal) -> Iterator[Stated]:
+def _stated_factors(signal: Signal) -> Iterator[Stated]:
     for key, text in signal.properties.items():
         found = _kind_of(key)
         if found is None or (found[0] is not None and not is_called(signal.name, found[0])):

@@ -118,7 +118,7 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
     if not gaps:
         return frozenset(), None
     full: Bool1D = np.asarray(filled[gaps].all(axis=0) & (len(gaps) > 1))
-    said = {k: _written(names[k], columns[names[k]], filled[k], full) for k in range(len(names)) if filled[k].any()}
+    said = {k: _how_written(names[k], columns[names[k]], filled[k], full) for k in range(len(names)) if filled[k].any()}
     verdicts = {k: one.verdict for k, one in said.items()}
     whole = any(one.proves for one in said.values()) and "written anew" not in verdicts.values()
     wordless = [k for k in gaps if not any(c.strip().casefold() in EMPTY for c in columns[names[k]] if c.strip())]
@@ -142,7 +142,7 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
 def _sparse_later(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> bool:
     """Whether a column has a cell in every row at first, and few that come at no rate from there on."""
     head = int(np.argmin(filled))
-    later = _written(name, cells[head:], filled[head:], full[head:]) if filled[head:].any() else None
+    later = _how_written(name, cells[head:], filled[head:], full[head:]) if filled[head:].any() else None
     return head > 1 and later is not None and later.is_sparse
 
 
@@ -189,7 +189,7 @@ def declared_standing(
     return frozenset(found)
 
 
-def _written(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:
+def _how_written(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:
     rows: Int1D = np.flatnonzero(filled)
     texts = [cells[k].strip() for k in rows.tolist()]
     own = ~full[rows[1:]]

@@ -68,9 +68,9 @@ def quality_pairs(
         if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
             found[value] = name, (match.groupdict().get("word") or "quality").casefold()
     pairs = _with_zeros(found, columns, told)
-    for value, name in {**_beside(columns, "fault", measured), **_faults_of_row(columns)}.items():
+    for value, name in {**_columns_of_codes(columns, "fault", measured), **_faults_of_row(columns)}.items():
         pairs.setdefault(value, (name, True))
-    for value, name in _beside(columns, "state", measured).items():
+    for value, name in _columns_of_codes(columns, "state", measured).items():
         if not _is_a_switch(columns[name]) and _are_qualities(columns, name):
             pairs.setdefault(value, (name, True))
     return pairs
@@ -80,7 +80,7 @@ def second_pairs(
     columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str]
 ) -> dict[str, tuple[str, bool]]:
     """The same of values that have a quality in `pairs`, and their faults, or a quality of the whole row, too."""
-    beside = {**_beside(columns, "fault", measured), **_faults_of_row(columns)}
+    beside = {**_columns_of_codes(columns, "fault", measured), **_faults_of_row(columns)}
     faults = {value: (name, True) for value, name in beside.items()}
     found = _with_zeros(_of_bare(columns), columns, told) | faults
     return {value: own for value, own in found.items() if pairs[value] != own}
@@ -89,7 +89,7 @@ def second_pairs(
 def states(columns: Mapping[str, Sequence[str]], pairs: Pairs, measured: Collection[str] = ()) -> dict[str, str]:
     """Column of a state in codes that are not known here -> the value that it stands beside."""
     known = {own for own, _ in pairs.values()}
-    return {name: value for value, name in _beside(columns, "state", measured).items() if name not in known}
+    return {name: value for value, name in _columns_of_codes(columns, "state", measured).items() if name not in known}
 
 
 def said_of_codes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str], *pairs: Pairs) -> list[str]:
@@ -123,7 +123,7 @@ def tells_faults(name: str) -> bool:
     return names_faults(bare_header(name)) if match is None else match["fault"] is not None
 
 
-def _beside(
+def _columns_of_codes(
     columns: Mapping[str, Sequence[str]], sort: Literal["fault", "state"], measured: Collection[str]
 ) -> dict[str, str]:
     """Value column -> the one of its faults, or of its states, which holds a few codes; where faults are, 0 mostly."""
@@ -196,7 +196,7 @@ def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]
     if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
         surest = min(words, key=lambda word: (is_severity(word), tells_quality(bare_header(word)) or 0, word))
         bare = {name: word for name, word in bare.items() if word == surest}
-    beside = {*_beside(columns, "fault", ()).values(), *_beside(columns, "state", ()).values()}
+    beside = {*_columns_of_codes(columns, "fault", ()).values(), *_columns_of_codes(columns, "state", ()).values()}
     order = [
         name for name in columns if name in bare or not (name in beside or _BARE.match(name) or _QUALITY.match(name))
     ]

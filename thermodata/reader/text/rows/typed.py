@@ -52,7 +52,7 @@ def _odd_bytes(data: bytes, grid: Grid, lines: int) -> bool:
     )
 
 
-def _read(data: bytes, grid: Grid, width: int, kinds: dict[str, Any], invalid: list[Any] | None) -> Any:
+def _read_table(data: bytes, grid: Grid, width: int, kinds: dict[str, Any], invalid: list[Any] | None) -> Any:
     """The table of the wanted columns; ArrowInvalid where it is none. invalid: takes rows of another width."""
     import pyarrow as pa
     import pyarrow.csv as pc
@@ -102,7 +102,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         if kind is not None
     }
     try:
-        table = _read(data, grid, width, kinds, None)
+        table = _read_table(data, grid, width, kinds, None)
     except pa.ArrowInvalid:
         return None
     if table.num_rows != many:
@@ -112,7 +112,7 @@ def _typed(data: bytes, line: int, grid: Grid) -> Rows | None:
         if kind is None or kind == TIME:
             continue
         if i >= width:
-            columns[i] = _nothing(table.num_rows, kind)
+            columns[i] = _empty_column(table.num_rows, kind)
             continue
         values = _arrow_values(table.column(str(i)), kind)
         if values is None:
@@ -158,7 +158,7 @@ def _shared_texts(column: Any) -> Values:
     return Values(np.concatenate(parts) if parts else np.empty(0, object), none, none)
 
 
-def _nothing(n: int, kind: str) -> Values:
+def _empty_column(n: int, kind: str) -> Values:
     """A column that no row has."""
     dtype, none = np.dtype(object if kind == "str" else kind), np.zeros(n, bool)
     nothing = None if kind == "str" else np.nan if dtype.kind == "f" else 0
@@ -200,7 +200,7 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
     wanted = [i for i, kind in enumerate(grid.kinds) if kind is not None]
     width = _common_width(data, grid)
     try:
-        table = _read(data, grid, width, {str(i): pa.string() for i in wanted if i < width}, invalid)
+        table = _read_table(data, grid, width, {str(i): pa.string() for i in wanted if i < width}, invalid)
     except pa.ArrowInvalid:
         return None
     if table.num_rows + len(invalid) != many or any("\n" in row.text for row in invalid):

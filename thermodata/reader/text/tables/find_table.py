@@ -55,7 +55,7 @@ def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
     """
     status = path.stat()
     key = (str(path.resolve()), status.st_mtime_ns, status.st_size, repr(source), stream)
-    return _kept(_AskedTable(path, source, stream, key))
+    return _find_table_kept(_AskedTable(path, source, stream, key))
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class _AskedTable:
 
 
 @lru_cache(maxsize=4)
-def _kept(asked: _AskedTable) -> Table:
+def _find_table_kept(asked: _AskedTable) -> Table:
     path, source = asked.path, asked.source
     first = sample(path, source.encoding)
     # a last line without its end may be half a row: it decides nothing
@@ -106,13 +106,13 @@ def find_table(
     whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
-    lines, table = _sampled(whole, said, where, stream, strict)
+    lines, table = _sample_table(whole, said, where, stream, strict)
     layout, preamble = table.layout, lines.head[: table.layout.first]
     groups, zone, open_zone = zones_said(table.groups, layout.names, map(lines.cells, preamble), source.timezone)
     table = replace(table, groups=groups)
     columns = look_at_columns(table, source.options.get("text") or (), whole.delimiter)
     above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
-    begin, doubt = _begin(table, above)
+    begin, doubt = _begin_above(table, above)
     notes = [
         whole.sample.note,
         *layout.notes,
@@ -147,7 +147,7 @@ def find_table(
     )
 
 
-def _sampled(
+def _sample_table(
     whole: HeadLines, said: Mapping[str, Any], where: str, stream: str, strict: bool
 ) -> tuple[HeadLines, Sampled]:
     """(the lines of the table, without another below it; what was sampled of it). said: what is declared of it."""
@@ -157,16 +157,16 @@ def _sampled(
     try:
         layout = find_layout(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
     except FormatError:
-        refuse_sideways(rows, where, _turned(where))
+        refuse_sideways(rows, where, _how_to_turn(where))
         raise
     body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
-    groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
+    groups = tuple(_with_time_formats(g, layout, body, lines, stream, where) for g in layout.groups)
     return lines, Sampled(said, layout, groups, body, where)
 
 
-def _turned(where: str) -> str:
+def _how_to_turn(where: str) -> str:
     """How a text that stands on its side is turned round, in a spreadsheet or, of one that is too wide for it, by a
     command."""
     return (
@@ -187,7 +187,7 @@ def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[l
     return [r for r in (*top_rows, *later) if len(r) == len(layout.names) and not repeats(r)]
 
 
-def _timed(
+def _with_time_formats(
     group: Group, layout: Layout, body: Sequence[list[str]], lines: HeadLines, stream: str, where: str
 ) -> TimedGroup:
     name = stream if group.stream == STREAM else group.stream
@@ -211,7 +211,7 @@ def _timed(
     return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
 
 
-def _begin(table: Sampled, above: Iterable[list[str]]) -> tuple[Begin | None, str | None]:
+def _begin_above(table: Sampled, above: Iterable[list[str]]) -> tuple[Begin | None, str | None]:
     """(when the rows began, as a line above them says; a note where one is not taken)."""
     groups, said = table.groups, declared_start(table.said)
     if any(g.absolute for g in groups):

@@ -38,7 +38,7 @@ def refuse_long(
     """FormatError for a table in which a column names what another one holds the value of: by its header, where that
     column has several names, or by its rows, where each time comes once for each of several names; for one whose rows
     hold several names, each before its value, which change their places."""
-    moved = _moved(names, rows)
+    moved = _columns_of_moved_names(names, rows)
     if moved:
         raise FormatError(
             "rows of several names, each before its value",
@@ -62,17 +62,17 @@ def refuse_long(
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + with_dots(said, 4),
-        hint=f"declare table: {{series: [{_written(names[tag])}]}}: its rows are taken apart, each name is a signal "
+        hint=f"declare table: {{series: [{_as_yaml(names[tag])}]}}: its rows are taken apart, each name is a signal "
         "of its own; or, with a column of dates and times, and columns called tag and value, the reader cnc does so",
     )
 
 
-def _written(name: str) -> str:
+def _as_yaml(name: str) -> str:
     """A name as a list in a campaign file holds it."""
     return name if re.fullmatch(r"[^\W\d][\w ]*", name) else json.dumps(name, ensure_ascii=False)
 
 
-def _moved(names: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[int, int] | None:
+def _columns_of_moved_names(names: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[int, int] | None:
     """Two columns of words before numbers that hold the same words, never in one row, and no states: names of values
     that stand in other columns from row to row. Not of columns that are called otherwise: two spindles have tools."""
     if len(rows) < _FEWEST_ROWS:

@@ -131,14 +131,14 @@ class Table:
         """Whether a line stands above the data too, if with another spelling of a unit: files that were joined repeat
         their headers."""
         bare = bare_line(line)
-        return bare in self.header or (bool(told := self._told(bare)) and told in self._header_told)
+        return bare in self.header or (bool(told := self._names_and_units(bare)) and told in self._header_told)
 
     @cached_property
     def _header_told(self) -> frozenset[Told]:
         """The lines of the header in one spelling of their units."""
-        return frozenset(told for line in self.header if (told := self._told(line)))
+        return frozenset(told for line in self.header if (told := self._names_and_units(line)))
 
-    def _told(self, line: str) -> Told:
+    def _names_and_units(self, line: str) -> Told:
         """() of a line that holds a number, or one cell."""
         cells = [clean(c) for c in fields(line, self.delimiter, self.quoted)]
         return told_alike(cells) if len(cells) > 1 and not any(map(is_number, cells)) else ()

@@ -31,12 +31,12 @@ class LocalClock:
         utc, _ = local_to_utc_ns(joined.view("datetime64[ns]"), self.timezone)
         result = utc[self._before.size :]
         self._before = joined[-1:]
-        if any(self._repeats(int(joined[-1]) - hours * _HOUR) for hours in range(3)):
+        if any(self._in_repeated_hour(int(joined[-1]) - hours * _HOUR) for hours in range(3)):
             far = np.flatnonzero(np.abs(joined - joined[-1]) > _NEAR)
             self._before = joined[far[-1] if far.size else 0 :]
         return result
 
-    def _repeats(self, local_ns: int) -> bool:
+    def _in_repeated_hour(self, local_ns: int) -> bool:
         from zoneinfo import ZoneInfo
 
         assert self.timezone is not None

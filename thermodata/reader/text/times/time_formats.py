@@ -53,7 +53,7 @@ def share(cells: Sequence[str], form: TimeFormat) -> float:
     )
 
 
-def _spread(cells: Sequence[str], most: int) -> Sequence[str]:
+def _spread_evenly(cells: Sequence[str], most: int) -> Sequence[str]:
     return cells[:: max(1, len(cells) // most)]
 
 
@@ -89,7 +89,7 @@ def find_formats(
         wanted = [" ".join(pieces[k] for k in run) for run in runs] if each else pieces
     elif declared is not None and len(runs) > 1 and wanted and not forms:
         joined = [time_cells.joined_cells([columns[i] for i in run]) for run in runs]
-        wanted = _apart(declared.split(" "), joined) or wanted
+        wanted = _format_by_column(declared.split(" "), joined) or wanted
     for at, run in enumerate(runs):
         k, name = run[0], names[run[0]]
         cells = columns[k] if len(run) == 1 else time_cells.joined_cells([columns[i] for i in run])
@@ -104,8 +104,8 @@ def find_formats(
         for text in wanted[at : at + 1] if len(wanted) == len(runs) else wanted:
             own = time_pattern.declared_format(text)
             if alone:
-                refuse_unread(text, own, _spread(cells, _MANY), share, f"{where} column '{name}'")
-            form = own if alone or share(_spread(cells, _FEW), own) > 0.5 else form
+                refuse_unread(text, own, _spread_evenly(cells, _MANY), share, f"{where} column '{name}'")
+            form = own if alone or share(_spread_evenly(cells, _FEW), own) > 0.5 else form
         if form is None and k and forms[0].role == "date":
             form = clock_of_numbers(name, cells)
         form = form or _two_parts(clock, cells, further()) or find_format(cells, where, name, further, order)
@@ -115,10 +115,10 @@ def find_formats(
     return tuple(forms)
 
 
-def _apart(pieces: Sequence[str], columns: Sequence[Sequence[str]]) -> list[str]:
+def _format_by_column(pieces: Sequence[str], columns: Sequence[Sequence[str]]) -> list[str]:
     """A declared format of several columns ('%d. %b %Y %H:%M:%S') as one of each, by which its cells are read; empty
     where it cannot be parted so."""
-    few = _spread(columns[0], _FEW)
+    few = _spread_evenly(columns[0], _FEW)
     for end in range(1, len(pieces)) if len(columns) > 1 else [len(pieces)]:
         first = " ".join(pieces[:end])
         try:
@@ -127,7 +127,7 @@ def _apart(pieces: Sequence[str], columns: Sequence[Sequence[str]]) -> list[str]
             continue  # a day without its month
         if reads and len(columns) == 1:
             return [first]
-        if reads and (rest := _apart(pieces[end:], columns[1:])):
+        if reads and (rest := _format_by_column(pieces[end:], columns[1:])):
             return [first, *rest]
     return []
 
@@ -137,14 +137,14 @@ def _further(more: Callable[[int], Sequence[str]], run: Sequence[int]) -> Sequen
 
 
 def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
-    some = [c for c in _spread(cells, _FEW) if timestamp.parse_one(c, form) != NAT]
+    some = [c for c in _spread_evenly(cells, _FEW) if timestamp.parse_one(c, form) != NAT]
     zoned = sum(time_pattern.is_zoned(c, form) for c in some)
     return time_pattern.with_zone(form, zoned * 2 > len(some))
 
 
 def _two_parts(clock: str | None, cells: Sequence[str], more: Sequence[str]) -> TimeFormat | None:
     """The format of cells of two parts that are declared or named; None where they have others."""
-    few = _spread(cells, _FEW)
+    few = _spread_evenly(cells, _FEW)
     if clock == "mm:ss" and share(few, MINUTES) > 0.5:
         return MINUTES
     return HOURS if clock == "hh:mm" and share(few, HOURS) > 0.5 and _goes_on(more or cells, HOURS) else None
@@ -159,7 +159,7 @@ def find_format(
 ) -> TimeFormat:
     """The format of cells of one column, whether they name an offset from UTC or not; errors as above. order: the
     declared one of day and month."""
-    few = _spread(cells, _FEW)
+    few = _spread_evenly(cells, _FEW)
     if share(few, SPAN) > 0.8 and are_spans(more() or cells):
         return SPAN
     if share(few, ELAPSED) > 0.8 and _goes_on(more() or cells, ELAPSED):
@@ -226,7 +226,7 @@ def _ordered(
     if "." in re.split(r"[ T]", first)[0]:
         return forms["dmy"]
     left = orders
-    for some in (partial(_spread, cells, _MANY), more):
+    for some in (partial(_spread_evenly, cells, _MANY), more):
         shares = {o: share(_dates(some()), forms[o]) for o in left}
         best = max(shares.values())
         left = [o for o in left if shares[o] == best]

@@ -39,10 +39,10 @@ def in_columns(line: str, names: Sequence[str]) -> str:
 def all_in_columns(data: bytes, names: Sequence[str]) -> bytes:
     """The same of whole lines in UTF-8, which keep their number."""
     lines = data.decode("utf-8", "surrogateescape").split("\n")
-    return "\n".join(_each(lines, names)).encode("utf-8", "surrogateescape")
+    return "\n".join(_lines_in_columns(lines, names)).encode("utf-8", "surrogateescape")
 
 
-def _each(lines: Iterable[str], names: Sequence[str]) -> Iterable[str]:
+def _lines_in_columns(lines: Iterable[str], names: Sequence[str]) -> Iterable[str]:
     return (in_columns(line, names) if line else line for line in lines)
 
 

@@ -16,7 +16,7 @@ def second_header(rows: Sequence[Sequence[str]]) -> int | None:
     heads = [n for n, row in enumerate(rows) if _are_names(row)]
     for k, second in enumerate(heads):
         for first in heads[:k]:
-            if len(rows[first]) != len(rows[second]) and _repeats(rows[first], rows[second]):
+            if len(rows[first]) != len(rows[second]) and _repeats_names(rows[first], rows[second]):
                 between = [r for r in rows[first + 1 : second] if not _blank(r)]
                 behind = [r for r in rows[second + 1 :] if not _blank(r)][:_FEWEST_ROWS]
                 if _as_wide(between, len(rows[first])) and behind and _as_wide(behind, len(rows[second]), 1):
@@ -29,7 +29,7 @@ def _are_names(row: Sequence[str]) -> bool:
     return len(filled) > 1 and not any(is_number(c) or is_stamp(c) for c in filled)
 
 
-def _repeats(first: Sequence[str], second: Sequence[str]) -> bool:
+def _repeats_names(first: Sequence[str], second: Sequence[str]) -> bool:
     """Whether a row has all names of the shorter one of both but a few, and the same one in front."""
     both, fewest = set(first) & set(second) - {""}, min(len(set(first) - {""}), len(set(second) - {""}))
     return first[0] == second[0] and len(both) > 1 and 2 * len(both) >= fewest

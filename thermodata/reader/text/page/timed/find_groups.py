@@ -28,7 +28,7 @@ def find_groups(
             return _declared_groups(said, seen)
         said = said[0] if said else {}
     if said.get("period") is not None:
-        return [_counted(said["period"], width, seen.where)], []
+        return [_group_at_period(said["period"], width, seen.where)], []
     notes: list[str] = []
     found: list[Span] = []
     if said.get("column") is None:
@@ -106,7 +106,7 @@ def _group(stream: str, time: TableTime, columns: tuple[int, ...]) -> Group:
     return Group(stream, time.columns, seconds, time.form, epoch, columns)
 
 
-def _counted(period: Any, width: int, where: str) -> Group:
+def _group_at_period(period: Any, width: int, where: str) -> Group:
     """All columns, in rows that follow each other at a declared period [s]."""
     return Group(STREAM, (), period_s(period, where), None, None, tuple(range(width)), True)
 

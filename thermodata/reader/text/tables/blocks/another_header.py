@@ -86,11 +86,11 @@ def other_units(layout: Layout, cells: Sequence[str]) -> str:
     changed = [
         (i, unit, was)
         for i, (unit, was) in said
-        if unit and unit.strip("-–") and i not in layout.dated and _plain(unit) != _plain(was or "")
+        if unit and unit.strip("-–") and i not in layout.dated and _one_spelling(unit) != _one_spelling(was or "")
     ]
     return ", ".join(f"'{layout.names[i]}' in {unit}, in {was or 'no unit'} before" for i, unit, was in changed)
 
 
-def _plain(unit: str) -> str:
+def _one_spelling(unit: str) -> str:
     """A unit in one spelling: 'degC' of '°C'."""
     return spelled(unit) or unit

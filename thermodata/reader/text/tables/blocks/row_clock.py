@@ -48,7 +48,7 @@ class RowClock:
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
-        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
+        ns = self._counted_times(rows, peek) if self.timed.group.counted else self._written_times(rows, peek)
         if peek:
             return ns
         parts, first = [], 0
@@ -91,7 +91,7 @@ class RowClock:
         zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
         return np.where(since == NAT, NAT, since + np.int64(zero))
 
-    def _joined(self, rows: Rows, peek: bool) -> Int1D:
+    def _joined_times(self, rows: Rows, peek: bool) -> Int1D:
         """Dates and times of day, shape (n,): of rows without a date too, where the table has such."""
         import pyarrow.compute as pc
 
@@ -104,7 +104,7 @@ class RowClock:
         days = replace(self.joined_days) if peek else self.joined_days
         return days.join(column_times([cells], forms[:1]), clock_ns, empty)
 
-    def _counted(self, rows: Rows, peek: bool) -> Int1D:
+    def _counted_times(self, rows: Rows, peek: bool) -> Int1D:
         """Times of rows that are counted. A line that is lost took its time too, a repeated header took none, nor did a
         row of another kind."""
         numbers = [
@@ -127,10 +127,10 @@ class RowClock:
         on = self.counter.gone_on(np.where(cells.empty, np.nan, counts), peek)
         return to_ns(on if self.counter.times else cells.values, each)
 
-    def _written(self, rows: Rows, peek: bool) -> Int1D:
+    def _written_times(self, rows: Rows, peek: bool) -> Int1D:
         group = self.timed.group
         if have_days(self.timed.formats):
-            return self._joined(rows, peek)
+            return self._joined_times(rows, peek)
         if not self.timed.formats:
             cells = rows.columns[group.time[0]]
             if self.epoch is None:

@@ -71,11 +71,11 @@ class RowReader:
                 shown = tail[:80].decode("utf-8", "replace")
                 reason = f"expected a whole row (the file ends without a line end), got '{shown}'"
                 told.append(Complaint(line + data.count(b"\n"), reason, len(tail)))
-        rows = self._parsed(data, line)
+        rows = self._parse_chunk(data, line)
         rows, told = self._until_another_header(rows, told, data, line)
         told += [Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not (self._repeats(bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
+            if not (self._repeats_header(bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
@@ -97,12 +97,12 @@ class RowReader:
         """The starts of further heads, in the order of their lines."""
         return [self._anew[line] for line in sorted(self._anew)]
 
-    def _repeats(self, text: str, line: int) -> bool:
+    def _repeats_header(self, text: str, line: int) -> bool:
         """Whether a line is one of the header again, or says that the rows behind it count from another start."""
         return line in self._anew or self.table.repeats_header(text)
 
     def _is_head_or_footer(self, text: str, line: int) -> bool:
-        return self._repeats(text, line) or self._is_footer(text)
+        return self._repeats_header(text, line) or self._is_footer(text)
 
     def _is_footer(self, text: str) -> bool:
         return is_footer(self._cells(text))
@@ -146,7 +146,7 @@ class RowReader:
         previous = before[end:].decode("utf-8", "replace").rstrip("\r\n")
         return bool(previous) and last_line_is_whole(tail.decode("utf-8", "replace"), previous, self.table.delimiter)
 
-    def _parsed(self, data: bytes, line: int) -> Rows:
+    def _parse_chunk(self, data: bytes, line: int) -> Rows:
         rows = parse(data, line, self.grid)
         if self.sure:
             return rows
@@ -174,7 +174,7 @@ class RowReader:
             return rows, told
         self.stopped = True
         number, reason = found
-        size = self._left(data, lines[: number - line])
+        size = self._bytes_left(data, lines[: number - line])
         return rows.before(number), [*(t for t in told if t.line < number), Complaint(number, reason, size)]
 
     def _begins_at_the_end(self, data: bytes) -> bytes:
@@ -207,7 +207,7 @@ class RowReader:
                     group.clock.anew[number] = begin
         self._last_ns = int(ns[-1]) if ns.size else self._last_ns
 
-    def _left(self, data: bytes, before: Sequence[bytes]) -> int:
+    def _bytes_left(self, data: bytes, before: Sequence[bytes]) -> int:
         """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""
         behind = len(data) - sum(len(line) + 1 for line in before)
         return max(1, self.losses.file_size - self._read + behind)

@@ -40,12 +40,12 @@ class Sampled:
         """The cells of each column by its name, in the rows that have a time for it."""
         found: dict[int, list[str]] = {}
         for timed in self.groups:
-            dated = _dated(still_going(self.body, timed.group, self.layout), timed)
+            dated = _rows_with_times(still_going(self.body, timed.group, self.layout), timed)
             found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
         return {name: found[i] for i, name in enumerate(self.layout.names)}
 
 
-def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
+def _rows_with_times(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
     """The rows whose times can be read."""
     if not timed.formats:
         return list(body)

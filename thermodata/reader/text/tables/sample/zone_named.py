@@ -52,7 +52,7 @@ def zones_said(
     lines = list(above)
     zone, saving = zone_above(lines), saving_on(lines)
     if saving is not None and zone is not None:
-        return groups, None, _open(f"{zone[1]}; {saving}", zone[0]) if timezone is None else None
+        return groups, None, _note_of_open_zone(f"{zone[1]}; {saving}", zone[0]) if timezone is None else None
     if zone is not None:
         if timezone is None:
             groups = tuple(g if g.stated else replace(g, stated=zone[0], above=zone[1]) for g in groups)
@@ -65,7 +65,7 @@ def zones_said(
     if open_groups and (by_name := zone_by_name(lines)) is not None:
         return groups, by_name, None if timezone else f"{SAYS} '{by_name[1][:_LONGEST]}': timezone: {by_name[0]}"
     named = named_in(names[i] for g in open_groups for i in g.group.time)
-    return groups, named, None if named is None or timezone is not None else _open(named[1], named[0])
+    return groups, named, None if named is None or timezone is not None else _note_of_open_zone(named[1], named[0])
 
 
 def named_note(headers: Sequence[str], timezone: str | None, first_ns: int, last_ns: int) -> str | None:
@@ -73,7 +73,7 @@ def named_note(headers: Sequence[str], timezone: str | None, first_ns: int, last
     elsewhere at the first or the last row [ns since 1970]; None else."""
     named = named_in(headers)
     if named is None or timezone is None:
-        return None if named is None else _open(named[1], named[0])
+        return None if named is None else _note_of_open_zone(named[1], named[0])
     ends = (first_ns // 10**9, last_ns // 10**9)
     other = any(utc_offset_ns(timezone, s) != utc_offset_ns(named[0], s) for s in ends)
     return f"the header says '{named[1][:60]}'; the declared {timezone} is used" if other else None
@@ -84,5 +84,5 @@ def _of_places(said: str, zone: str | None) -> str:
     return f"{SAYS} '{said[:_LONGEST]}', {OPEN}" + (f": timezone: {zone} where they are" if zone else "")
 
 
-def _open(said: str, zone: str) -> str:
+def _note_of_open_zone(said: str, zone: str) -> str:
     return f"{SAYS} '{said[:60]}', {OPEN}: timezone: {zone} where they never are"

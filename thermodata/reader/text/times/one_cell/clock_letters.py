@@ -37,7 +37,7 @@ def refuse_unread(declared: str, form: TimeFormat, cells: Sequence[str], share: 
     full = [c for c in cells if c.strip()]
     if not full or share(full, form):
         return
-    spelled = next((text for text in _others(declared, full) if _reads(text, full, share)), None)
+    spelled = next((text for text in _with_other_clocks(declared, full) if _reads(text, full, share)), None)
     raise FormatError(
         f"the declared format '{declared}' reads none of the times",
         where=where,
@@ -48,7 +48,7 @@ def refuse_unread(declared: str, form: TimeFormat, cells: Sequence[str], share: 
     )
 
 
-def _others(declared: str, cells: Sequence[str]) -> list[str]:
+def _with_other_clocks(declared: str, cells: Sequence[str]) -> list[str]:
     """Formats of the same date with the times of day that stand in the cells, and what is guessed without it."""
     date, short = _IN_LETTERS.sub("", declared).rstrip(), [c.strip() for c in cells if len(c) <= _LONGEST]
     tails = [re.sub(r"^.*?(?=\D\d{1,2}:\d{2})", "", c, count=1) for c in (*short[:1], *short[-1:])]

@@ -48,7 +48,7 @@ def clock_of_numbers(name: str, cells: Sequence[Cell]) -> TimeFormat | None:
     if not all(0 <= v < _MOST[letter] for v in values):
         return None
     text = {"H": "hours", "M": "minutes", "S": "seconds", "": "a fraction of the day"}[letter]
-    return TimeFormat("time", None, text, zoned=False, reads=partial(_counted, _UNITS[letter], _MOST[letter]))
+    return TimeFormat("time", None, text, zoned=False, reads=partial(_clock_ns, _UNITS[letter], _MOST[letter]))
 
 
 def since_midnight_format(declared: str | None) -> TimeFormat | None:
@@ -111,7 +111,7 @@ def days_beside(place: int, seen: FirstRows) -> Iterator[int]:
             yield day
 
 
-def _counted(unit_ns: int, most: float, cell: str) -> int:
+def _clock_ns(unit_ns: int, most: float, cell: str) -> int:
     value = number_of(cell) if is_number(cell) else None
     if value is None or not 0 <= value < most:
         return NAT
@@ -130,7 +130,7 @@ def year_and_day(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a year, its day and a time of day that are called so: `Year, DOY, HHMM`; None where there
     are none. Without a header they are known by their values: a year, a day and a clock that goes on, side by side."""
     if all(name == f"column {i + 1}" for i, name in enumerate(seen.names)):
-        return _unnamed(seen)
+        return _by_values(seen)
     words = [split_unit(n)[0].strip(" #.:_").casefold() for n in seen.names]
     year = next((i for i, w in enumerate(words) if w in ("year", "jahr", "rok", "année", "año", "yyyy")), None)
     day = next((i for i, w in enumerate(words) if w in DAYS_OF_YEAR), None)
@@ -153,7 +153,7 @@ def _is_second(cell: Cell) -> bool:
     return _CLOCKS["%S"](str(cell)) != NAT
 
 
-def _unnamed(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
+def _by_values(seen: FirstRows) -> tuple[tuple[int, ...], str] | None:
     """The same by values; with seconds behind the clock where it alone does not go on, and rows of several kinds may
     have one time."""
     for form, least in (("%Y %j %H%M", 1.0), ("%Y %j %H%M %S", 0.5)):
@@ -180,9 +180,9 @@ DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", 
 _CLOCKS = {
     "%H%M": partial(read_joined, 4),
     "%H%M%S": partial(read_joined, 6),
-    "%H": partial(_counted, _UNITS["H"], _MOST["H"]),
-    "%M": partial(_counted, _UNITS["M"], _MOST["M"]),
-    "%S": partial(_counted, _UNITS["S"], _MOST["S"]),
+    "%H": partial(_clock_ns, _UNITS["H"], _MOST["H"]),
+    "%M": partial(_clock_ns, _UNITS["M"], _MOST["M"]),
+    "%S": partial(_clock_ns, _UNITS["S"], _MOST["S"]),
 }
 
 

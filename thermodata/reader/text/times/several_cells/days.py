@@ -82,12 +82,12 @@ class Days:
         over = steps + DAY_NS <= _STEPS * self._step
         turned = same & np.where(empty[good], steps < -_SET_NS, (steps < -DAY_NS // 2) & over)
         paused = np.abs(steps) > _STEPS * self._step
-        nights = self._counted(same, turned, empty[good], (steps < -DAY_NS // 2) | paused)
+        nights = self._midnights_since_date(same, turned, empty[good], (steps < -DAY_NS // 2) | paused)
         out[good] = np.where(day == NAT, NAT, day + nights * DAY_NS + clock)
         self._day, self._clock, self._nights = int(day[-1]), int(clock[-1]), int(nights[-1])
         return out
 
-    def _counted(self, same: Bool1D, turned: Bool1D, empty: Bool1D, away: Bool1D) -> Int1D:
+    def _midnights_since_date(self, same: Bool1D, turned: Bool1D, empty: Bool1D, away: Bool1D) -> Int1D:
         """Midnights since each row's date began, shape (n,). A date that was changed while no midnight passed is ahead
         of its clock: the midnight that follows is the one that it was changed for. away: where the clock went back
         over midnight, or the log stood still, and a date that changes is that of another session."""

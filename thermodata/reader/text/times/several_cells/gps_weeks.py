@@ -30,8 +30,8 @@ _STEPS_NS = {"gps_s": 10**9, "gps_ms": 10**6}
 def find_weeks(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, int], str] | None:
     """(columns, format) of a week of GPS and the time in it, by their names and values: 'gps_week gps_s', with
     'gps_week+2048' for a number that began anew. None where there are none."""
-    weeks = {i: m for i, name in enumerate(names) if (m := _WEEK.fullmatch(_bare(name))) is not None}
-    times = {i: m for i, name in enumerate(names) if (m := _IN_WEEK.fullmatch(_bare(name))) is not None}
+    weeks = {i: m for i, name in enumerate(names) if (m := _WEEK.fullmatch(_without_unit(name))) is not None}
+    times = {i: m for i, name in enumerate(names) if (m := _IN_WEEK.fullmatch(_without_unit(name))) is not None}
     if len(weeks) != 1 or len(times) != 1:
         return None
     (week, in_week), (place, of_week) = next(iter(weeks.items())), next(iter(times.items()))
@@ -54,13 +54,13 @@ def find_weeks(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
 
 def may_be_of_weeks(name: str) -> bool:
     """Whether a column is called as a week of GPS or as the time in it is."""
-    return _WEEK.fullmatch(_bare(name)) is not None or _IN_WEEK.fullmatch(_bare(name)) is not None
+    return _WEEK.fullmatch(_without_unit(name)) is not None or _IN_WEEK.fullmatch(_without_unit(name)) is not None
 
 
 def reads_weeks(pieces: Sequence[str]) -> Callable[[str], int] | None:
     """What reads '2417 108000.5' in the pieces 'gps_week', 'gps_s' of a format; None where they are others."""
     week = _PIECE.fullmatch(pieces[0]) if len(pieces) == 2 and pieces[1] in _STEPS_NS else None
-    return None if week is None else partial(_read, int(week["more"] or 0), _STEPS_NS[pieces[1]])
+    return None if week is None else partial(_utc_of_week, int(week["more"] or 0), _STEPS_NS[pieces[1]])
 
 
 def seconds_of_weeks(weeks: Array, in_week: Array, form: str) -> Array:
@@ -84,7 +84,7 @@ def utc_of_weeks(weeks: Array, in_week: Array, form: str) -> Int1D:
     return np.where(good, EPOCHS["gps_ns"].ns(ns), NAT)
 
 
-def _read(more: int, step_ns: int, text: str) -> int:
+def _utc_of_week(more: int, step_ns: int, text: str) -> int:
     cells = text.split()
     week, in_week = (_number(c) for c in cells) if len(cells) == 2 else (None, None)
     if week is None or in_week is None or week % 1 or week < 0 or not 0 <= in_week * step_ns < _WEEK_S * 10**9:
@@ -98,5 +98,5 @@ def _number(cell: Cell) -> float | None:
     return number_of(cell) if is_number(cell) and not isinstance(cell, bool) else None
 
 
-def _bare(name: str) -> str:
+def _without_unit(name: str) -> str:
     return split_unit(name)[0].strip(" #.:_")
