@@ -157,13 +157,13 @@ def test_a_packed_archive_that_outgrows_what_is_kept_is_unpacked_once(
             member = tarfile.TarInfo(name)
             member.size = len(content)
             archive.addfile(member, io.BytesIO(content))
-    made, names = unpacked._made, []
+    made, names = unpacked._unpack, []
 
     def counted(archive: Path, name: str, status: os.stat_result) -> Any:
         names.append(name)
         return made(archive, name, status)
 
-    monkeypatch.setattr(unpacked, "_made", counted)
+    monkeypatch.setattr(unpacked, "_unpack", counted)
     monkeypatch.setattr(unpacked, "_KEPT_BYTES", len(LOG))
     for path in each_in(tmp_path / "day.tar.gz"):
         with held(path) as real:

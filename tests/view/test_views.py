@@ -152,7 +152,7 @@ def test_valid_tells_what_counts_in_means(small: Store) -> None:
 
 def made_by_an_older_version(store: Store) -> None:
     """As stores were when the selections by quantity held the samples that count only, and nothing counted views."""
-    with store._opened(con := connection.memory(store.path)):
+    with store._attached_for_writing(con := connection.memory(store.path)):
         con.execute("drop macro views_version; drop macro valid")
         con.execute("create or replace view displacement as select * from sample where channel = 'dZ' and flag = 0")
         kept = con.execute("select object, digest from made_from where object not like 'macro v%'").fetchall()

@@ -163,11 +163,11 @@ def file_state(status: os.stat_result) -> tuple[int, ...]:
 def listed(archive: Path) -> Listed:
     """The files in an archive, in its order; without hidden ones. FormatError where it is damaged, or holds too much to
     be one of logs."""
-    return _listed(str(archive), file_state(archive.stat()))
+    return _list_archive(str(archive), file_state(archive.stat()))
 
 
 @lru_cache(maxsize=64)
-def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
+def _list_archive(archive: str, mark: tuple[int, ...]) -> Listed:
     name, most = Path(archive).name, most_of(mark[2])
     kind = "ZIP" if name.lower().endswith(_ZIP) else "TAR"
     try:
@@ -175,9 +175,9 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
     except OSError as error:
         if error.errno is not None:  # of the disk
             raise
-        raise _unreadable(name, kind, error) from None
+        raise _error_of_archive(name, kind, error) from None
     except _WRONG as error:
-        raise _unreadable(name, kind, error) from None
+        raise _error_of_archive(name, kind, error) from None
     members = held.members
     whole = sum(m.size for m in members)
     if len(members) > MOST_FILES or whole > most:
@@ -204,7 +204,7 @@ def _path(member: Member) -> str:
     return member.name.replace("\\", "/").removeprefix("./")
 
 
-def _unreadable(name: str, kind: str, error: Exception) -> FormatError:
+def _error_of_archive(name: str, kind: str, error: Exception) -> FormatError:
     return FormatError(
         "an archive that can't be read", where=name, expected=f"a {kind} archive that is whole", got=str(error)
     )

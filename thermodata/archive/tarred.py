@@ -67,7 +67,7 @@ def _members(stream: _Forward) -> Tarred:
                     raise tarfile.ReadError(f"a file of {m.size} bytes, by the header at byte {m.offset}")
                 if not m.isdir():
                     held = 0 if m.issparse() else m.size  # no gap is unpacked
-                    found.append(Member(m.name, held, _refused(m), m.offset_data))
+                    found.append(Member(m.name, held, _why_not_read(m), m.offset_data))
                     size += held
                 if count > MOST_FILES or size > stream.most:
                     raise more_than_logs(stream.name, stream.most, count, size)
@@ -91,7 +91,7 @@ def _cut(found: list[Member], end: int, torn: bool) -> Tarred:
     return Tarred(found[:-1], ended=False, torn=True)
 
 
-def _refused(member: tarfile.TarInfo) -> str | None:
+def _why_not_read(member: tarfile.TarInfo) -> str | None:
     if member.issparse():
         return "it is packed without its gaps, as 'tar --sparse' does"
     return None if member.isreg() else "it is a link, or no plain file"
@@ -125,7 +125,7 @@ class _Forward:
         if not 0 <= size <= _HEADER - self._header or size > _HEADERS - self._headers:
             raise tarfile.ReadError(f"the header at byte {self._at} is damaged, or of {size} bytes and more")
         self._header, self._headers = self._header + size, self._headers + size
-        self._block = self._read(size)
+        self._block = self._read_block(size)
         if len(self._block) < size:
             first = self._header <= 1 + tarfile.BLOCKSIZE  # behind the last byte of what stands before it
             self.between = self._whole and first and size == tarfile.BLOCKSIZE and not self._block
@@ -141,22 +141,22 @@ class _Forward:
             return to
         more = True
         while more and self._at < to:  # unpacked, counted, and let go
-            more = bool(self._read(min(to - self._at, _PART)))
+            more = bool(self._read_block(min(to - self._at, _PART)))
         return self._at
 
     def must_end(self) -> None:
         """ReadError where the last header read is no end mark, or more than zeros stands behind it."""
         if any(self._block):
             raise tarfile.ReadError(f"the header at byte {self._at - len(self._block)} is damaged")
-        while part := self._read(_PART):
+        while part := self._read_block(_PART):
             if any(part):
                 raise tarfile.ReadError(
                     "more stands behind its end mark: of two archives in one, 'tar -i' unpacks both"
                 )
 
-    def _read(self, size: int) -> bytes:
+    def _read_block(self, size: int) -> bytes:
         parts, missing = [], size
-        while missing and (part := self._next(missing)):
+        while missing and (part := self._next_bytes(missing)):
             parts.append(part)
             missing -= len(part)
             self._at += len(part)
@@ -164,7 +164,7 @@ class _Forward:
                 raise more_than_logs(self.name, self.most, 0, self._at)
         return b"".join(parts)
 
-    def _next(self, size: int) -> bytes:
+    def _next_bytes(self, size: int) -> bytes:
         """What comes next, at most so many bytes; nothing where a packed one is cut off: what stands before the cut was
         given."""
         try:

@@ -143,15 +143,15 @@ def _copy(archive: Path, name: str) -> _Copy:
     if key in _copies:
         _copies.move_to_end(key)
         return _copies[key]
-    with _whole(archive, name):
-        _drop(lambda: len(_copies) < _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES)
-        made = _made(archive, name, status)
+    with _unpacked_archive(archive, name):
+        _drop_unread(lambda: len(_copies) < _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES)
+        made = _unpack(archive, name, status)
     _copies[key] = made
     return made
 
 
 @contextmanager
-def _whole(archive: Path, name: str) -> Iterator[Path]:
+def _unpacked_archive(archive: Path, name: str) -> Iterator[Path]:
     """Where the bytes of an archive of a file are. A packed TAR archive is unpacked as a whole, once, and not anew for
     each of its files: its copy stays while one is taken out."""
     if not name or archive.suffix.lower() == ".zip" or not _is_packed(archive):
@@ -170,7 +170,7 @@ def _is_packed(archive: Path) -> bool:
         return packed_by(file.read(16)) is not None
 
 
-def _drop(enough: Callable[[], bool]) -> None:
+def _drop_unread(enough: Callable[[], bool]) -> None:
     """Drops what nobody reads, from what was asked for longest ago on, until it is enough."""
     for old, copy in list(_copies.items()):
         if enough():
@@ -180,7 +180,7 @@ def _drop(enough: Callable[[], bool]) -> None:
             del _copies[old]
 
 
-def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
+def _unpack(archive: Path, name: str, status: os.stat_result) -> _Copy:
     """Unpacks a file, under the name that it had, with the time of what it was packed in."""
     global _folder, _count
     if _folder is None:
@@ -192,7 +192,7 @@ def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
     where = f"{archive.name}/{name}" if name else archive.name
     most = MOST_BYTES if name else most_of(status.st_size)  # an archive says how much it holds, and gives no more
     try:
-        size, cut = _written(_parts(archive, name), target, where, most, whole=bool(name))
+        size, cut = _write_parts(_parts(archive, name), target, where, most, whole=bool(name))
         with target.open("rb") as file:
             start = file.read(512)
         inner = packed_by(start) or ("ZIP" if packed(start) is not None else "TAR" if is_tar(start) else None)
@@ -218,7 +218,7 @@ def _packer(archive: Path, name: str) -> str:
         return packed_by(file.read(16)) or "gzip"
 
 
-def _written(parts: Generator[bytes], target: Path, where: str, most: int, whole: bool) -> tuple[int, bool]:
+def _write_parts(parts: Generator[bytes], target: Path, where: str, most: int, whole: bool) -> tuple[int, bool]:
     """(bytes, whether they are the beginning of what was packed, for its end is cut off). whole: it may not be."""
     size = 0
     try:
@@ -226,7 +226,7 @@ def _written(parts: Generator[bytes], target: Path, where: str, most: int, whole
             for part in parts:
                 size += len(part)
                 if no_room(target):
-                    _drop(lambda: not no_room(target))
+                    _drop_unread(lambda: not no_room(target))
                 if size > most or no_room(target):
                     raise FormatError(
                         "unpacks to more than a log does" if size > most else "no room to unpack it",
@@ -273,7 +273,7 @@ def _parts(archive: Path, name: str) -> Generator[bytes]:
 
 
 def _of_tar(archive: Path, name: str, at: int, size: int) -> Iterator[bytes]:
-    with _whole(archive, name) as real, real.open("rb") as file:
+    with _unpacked_archive(archive, name) as real, real.open("rb") as file:
         file.seek(at)
         while size:
             part = file.read(min(size, _PART))

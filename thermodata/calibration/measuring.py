@@ -54,12 +54,12 @@ def measuring_mask(
         mask &= _sensor_in_range(spec.in_range, values, flags or {}, len(t_ns))
     elif spec.in_range:
         for name, (low, high) in spec.in_range.items():
-            _known(name, values)
+            _require_channel(name, values)
             unit = (units or {}).get(name)
             x = np.asarray(values[name], dtype=np.float64)
             mask &= (x >= _limit(low, unit)) & (x <= _limit(high, unit))
     if spec.settle > 0 or (spec.for_ or 0) > 0:
-        mask = _held(np.asarray(t_ns), mask, spec.settle, spec.for_ or 0.0)
+        mask = _settled_and_long(np.asarray(t_ns), mask, spec.settle, spec.for_ or 0.0)
     return mask
 
 
@@ -86,7 +86,7 @@ def long_form(measuring: str | Measuring | None) -> Measuring:
     return Measuring(in_range="in_range") if measuring.strip() == "in_range" else Measuring(when=measuring)
 
 
-def _known(name: str, names: Mapping[str, object]) -> None:
+def _require_channel(name: str, names: Mapping[str, object]) -> None:
     if name not in names:
         close = nearest(name, list(names))
         raise UsageError(
@@ -101,7 +101,7 @@ def _known(name: str, names: Mapping[str, object]) -> None:
 def _sensor_in_range(name: str, values: Mapping[str, Array], flags: Mapping[str, Array], n: int) -> Bool1D:
     mask: Bool1D = np.ones(n, dtype=bool)
     if name != "in_range":
-        _known(name, {**flags, **values})
+        _require_channel(name, {**flags, **values})
     for channel in flags if name == "in_range" else [name]:
         if channel in flags:
             mask &= (np.asarray(flags[channel]) & _OUT) == 0
@@ -118,7 +118,7 @@ def _limit(limit: str | float | int, unit: str | None) -> float:
     return factor * value + offset
 
 
-def _held(t_ns: Int1D, mask: Bool1D, settle_s: float, for_s: float) -> Bool1D:
+def _settled_and_long(t_ns: Int1D, mask: Bool1D, settle_s: float, for_s: float) -> Bool1D:
     first, last = stretches(t_ns, mask)
     kept: Bool1D = np.zeros(len(mask), dtype=bool)
     dt = np.diff(t_ns)

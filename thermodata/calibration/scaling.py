@@ -46,14 +46,14 @@ def apply_scaling(scaling: Scaling | None, raw: Raw, *, channel: str | None = No
     in the order of `scaler_ids`. Raises CalibrationError for an unknown or malformed scaling.
     """
     if scaling is None:
-        return _plain(raw, channel)
+        return _unscaled_numbers(raw, channel)
     if scaling.kind == "linear":
         gain, offset = (_number(scaling, key, default, channel) for key, default in (("gain", 1.0), ("offset", 0.0)))
-        return _plain(raw, channel) * gain + offset
+        return _unscaled_numbers(raw, channel) * gain + offset
     check_scaling(scaling, channel=channel)
     scale = _ni(scaling)
     if scale is None:  # status "scaled": the file holds scaled values
-        return _plain(raw, channel)
+        return _unscaled_numbers(raw, channel)
     data, scalers = _inputs(scaling, raw, channel)
     # npTDMS adds raw integers in their own width, where 200 + 100 is 44, and cuts what it makes of them to integers
     data, scalers = None if data is None else _wide(data), {k: _wide(v) for k, v in scalers.items()}
@@ -70,17 +70,17 @@ def check_scaling(scaling: Scaling | None, *, channel: str | None = None) -> Non
             _number(scaling, key, 0.0, channel)
         return
     if scaling.kind != "ni":
-        raise _refused(f"unknown kind of scaling '{scaling.kind}'", channel, "linear, ni", str(scaling.kind))
+        raise _refusal(f"unknown kind of scaling '{scaling.kind}'", channel, "linear, ni", str(scaling.kind))
     properties = scaling.properties
     count = _count(properties)
     if not 0 <= count <= _MOST_SCALES:
-        raise _refused("NI scaling with an impossible number of scales", channel, f"at most {_MOST_SCALES}", str(count))
+        raise _refusal("NI scaling with an impossible number of scales", channel, f"at most {_MOST_SCALES}", str(count))
     if properties.get("NI_Scaling_Status", "unscaled") == "scaled":
         return
     for index in range(count):
         kind = properties.get(f"NI_Scale[{index}]_Scale_Type")
         if kind is not None and kind not in NI_SCALE_TYPES:
-            raise _refused(
+            raise _refusal(
                 f"unknown NI scale type '{kind}' (NI_Scale[{index}])", channel, ", ".join(NI_SCALE_TYPES), str(kind)
             )
     _check_graph(properties, count, channel)
@@ -89,7 +89,7 @@ def check_scaling(scaling: Scaling | None, *, channel: str | None = None) -> Non
     except ThermodataError:
         raise
     except Exception as error:
-        raise _refused(
+        raise _refusal(
             f"malformed NI scaling: {type(error).__name__}: {error}",
             channel,
             "all of its properties",
@@ -108,7 +108,7 @@ def scaler_ids(scaling: Scaling | None) -> tuple[int, ...]:
     )
 
 
-def _refused(what: str, channel: str | None, expected: str, got: str) -> CalibrationError:
+def _refusal(what: str, channel: str | None, expected: str, got: str) -> CalibrationError:
     return CalibrationError(
         what if channel is None else f"channel '{channel}': {what}",
         where=channel,
@@ -122,7 +122,7 @@ def _refused(what: str, channel: str | None, expected: str, got: str) -> Calibra
 def _number(scaling: Scaling, key: str, default: float, channel: str | None) -> float:
     value = scaling.properties.get(key, default)
     if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-        raise _refused(f"linear scaling with {key} {value!r}", channel, "a finite number", repr(value))
+        raise _refusal(f"linear scaling with {key} {value!r}", channel, "a finite number", repr(value))
     return float(value)
 
 
@@ -144,10 +144,10 @@ def _check_graph(properties: Mapping[str, Any], count: int, channel: str | None)
         if not match or int(match[1]) >= count:
             continue
         if isinstance(source, bool) or not isinstance(source, int | np.integer):
-            raise _refused(f"NI scaling with input {source!r}", channel, "a scale's number", f"{key} = {source!r}")
+            raise _refusal(f"NI scaling with input {source!r}", channel, "a scale's number", f"{key} = {source!r}")
         if int(source) != _RAW_INPUT:
             if not 0 <= int(source) < count:
-                raise _refused(
+                raise _refusal(
                     "NI scaling reads a scale that is not there", channel, f"0 to {count - 1}", f"{key} = {source}"
                 )
             inputs.setdefault(int(match[1]), set()).add(int(source))
@@ -155,7 +155,7 @@ def _check_graph(properties: Mapping[str, Any], count: int, channel: str | None)
     while len(settled) < count:
         ready = {i for i in range(count) if i not in settled and inputs.get(i, set()) <= settled}
         if not ready:
-            raise _refused(
+            raise _refusal(
                 "NI scaling feeds itself",
                 channel,
                 "a chain without a loop",
@@ -177,13 +177,13 @@ def _wide(raw: Array) -> Array:
     return raw.astype(np.float64) if raw.dtype.kind in "iub" else raw
 
 
-def _plain(raw: Raw, channel: str | None) -> Float1D:
+def _unscaled_numbers(raw: Raw, channel: str | None) -> Float1D:
     if isinstance(raw, Mapping):
         if len(raw) != 1:
-            raise _refused("several raw scalers without an NI scaling", channel, "one raw array", f"{len(raw)}")
+            raise _refusal("several raw scalers without an NI scaling", channel, "one raw array", f"{len(raw)}")
         raw = next(iter(raw.values()))
     if raw.dtype.kind not in "biuf":
-        raise _refused("raw values are not numbers", channel, "a number type", str(raw.dtype))
+        raise _refusal("raw values are not numbers", channel, "a number type", str(raw.dtype))
     return np.asarray(raw, dtype=np.float64)
 
 
@@ -201,7 +201,7 @@ def _inputs(scaling: Scaling, raw: Raw, channel: str | None) -> tuple[Array | No
         return raw, dict.fromkeys(ids, raw)
     missing = [i for i in ids if i not in scalers]
     if missing or not scalers or len({len(v) for v in scalers.values()}) > 1:
-        raise _refused(
+        raise _refusal(
             f"NI scaling needs the raw scalers {list(ids)}",
             channel,
             "one equally long array for each",
@@ -224,7 +224,7 @@ def _scale(scale: Any, data: Array | None, scalers: Mapping[int, Array], rows: A
     except Exception as error:
         if not isinstance(error, ValueError | ArithmeticError | np.linalg.LinAlgError):
             got = f"{type(error).__name__}: {error}"
-            raise _refused("NI scaling fails", channel, "scales that npTDMS can apply", got) from error
+            raise _refusal("NI scaling fails", channel, "scales that npTDMS can apply", got) from error
         if len(rows) == 1:
             return np.array([np.nan])
         half = len(rows) // 2

@@ -37,13 +37,13 @@ def exact_tread_of(stretches: Sequence[Float1D]) -> float:
     than its noise stands by chance only: its tread is its last digit, or 0 where it hardly ever stands.
     """
     parts = [part for x in stretches for part in _parts(x)]
-    standing = [s for part in parts if len(s := _standing(part))]
+    standing = [s for part in parts if len(s := _repeated_samples(part))]
     if sum(map(len, standing)) < LEAST_STANDING:
         return 0.0
     zeroed = np.concatenate([s - _commonest(s) for s in standing])
     # from the finest up: a multiple of the tread holds some of its levels only
     best, held = 0.0, 0.0
-    for candidate in _candidates(standing):
+    for candidate in _candidate_treads(standing):
         tread = _fitted(zeroed, candidate)
         k = zeroed / tread
         on = np.abs(k - np.round(k)) < OFF
@@ -71,7 +71,7 @@ def _parts(x: Float1D) -> list[Float1D]:
     return np.array_split(x, max(1, len(x) // PART))
 
 
-def _standing(x: Float1D) -> Float1D:
+def _repeated_samples(x: Float1D) -> Float1D:
     """The samples that equal the one before."""
     return x[1:][np.abs(np.diff(x)) <= SAME * np.ptp(x)] if len(x) > 1 else x[:0]
 
@@ -81,7 +81,7 @@ def _commonest(x: Float1D) -> float:
     return float(values[np.argmax(counts)])
 
 
-def _candidates(standing: Sequence[Float1D]) -> list[float]:
+def _candidate_treads(standing: Sequence[Float1D]) -> list[float]:
     """Rises between levels that follow each other, and differences of such rises; the smallest first."""
     rises = np.concatenate([np.abs(np.diff(s)) for s in standing])
     span = max(float(np.ptp(s)) for s in standing)

@@ -21,7 +21,7 @@ def foreign_part(test: Levels) -> tuple[float, float, str] | None:
     longer than that side nobody can tell what the machine did in it, and nothing is said.
     """
     for a, b in test.pauses:
-        told = [x for x in test.series.values() if x.quantity in _LEAST_STEP and _told(x, a, b)]
+        told = [x for x in test.series.values() if x.quantity in _LEAST_STEP and _has_room_around(x, a, b)]
         stepped = [x for x in told if _steps(x, a, b)]
         if len(told) < _LEAST_CHANNELS or len(stepped) < _SHARE * len(told):
             continue
@@ -32,7 +32,7 @@ def foreign_part(test: Levels) -> tuple[float, float, str] | None:
     return None
 
 
-def _told(x: Course, a: float, b: float) -> bool:
+def _has_room_around(x: Course, a: float, b: float) -> bool:
     before, after = _sides(x, a, b)
     longer = max(a - float(x.t_s[0]), float(x.t_s[-1]) - b)
     return min(len(before), len(after)) >= _LEAST_POINTS and b - a <= longer

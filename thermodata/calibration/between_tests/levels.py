@@ -95,7 +95,7 @@ def _stacks(i: int, test: Levels) -> list[_Stack]:
         _Stack(
             i,
             t_s,
-            np.stack([y if on[n] == k else _at(t, y, t_s, apart[on[n]]) for n, (t, y) in sound.items()]),
+            np.stack([y if on[n] == k else _course_at(t, y, t_s, apart[on[n]]) for n, (t, y) in sound.items()]),
             {n: row for row, n in enumerate(sound) if on[n] == k},
         )
         for k, t_s in enumerate(grids)
@@ -125,7 +125,7 @@ def _median_of_others(x: Float2D) -> Float2D:
     return np.where(np.isfinite(x) & (others >= LEAST_OTHERS), median, np.nan)
 
 
-def _at(own_s: Float1D, x: Float1D, t_s: Float1D, apart: float) -> Float1D:
+def _course_at(own_s: Float1D, x: Float1D, t_s: Float1D, apart: float) -> Float1D:
     """A course x at other times than its own; NaN where its next point lies further away than its points from each
     other, apart [s] as a rule, and everywhere where both do not run at once: of one that follows the other, the points
     at the joint are no neighbours."""

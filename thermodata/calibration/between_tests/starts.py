@@ -58,14 +58,14 @@ def off_from_start(starts: Sequence[Mapping[str, Start]], rested: Sequence[bool]
     found: dict[str, tuple[int, float]] = {}
     while True:  # one that is off is no company to the next one
         left = {name: x for name, x in at.items() if name not in found}
-        told = {name: _off(name, starts, left, np.array(rested, dtype=bool)) for name in left}
+        told = {name: _offset_from_test(name, starts, left, np.array(rested, dtype=bool)) for name in left}
         new = {name: off for name, off in told.items() if off is not None}
         if not new:
             return found
         found |= new
 
 
-def _off(
+def _offset_from_test(
     name: str, starts: Sequence[Mapping[str, Start]], at: Mapping[str, Float1D], rested: Bool1D
 ) -> tuple[int, float] | None:
     x = at[name]
@@ -96,7 +96,7 @@ def _cools_to_its_start(before: Sequence[Start], after: Sequence[Start], sign: f
     needs tests before in which it was seen to cool."""
     if sum(map(_comes_back, after)) < LEAST_AFTER:
         return False
-    if max(_beyond(x, sign) for x in after) > max(_beyond(x, sign) for x in before) + COOLS_K:
+    if max(_leaves_start_k(x, sign) for x in after) > max(_leaves_start_k(x, sign) for x in before) + COOLS_K:
         return False
     usual, new = (float(np.median([x.at_k for x in some])) for some in (before, after))
     known = _fastest(before, usual)
@@ -112,7 +112,7 @@ def _comes_back(x: Start) -> bool:
     return bool(above[top] >= HEATED_K and above[top:].min() <= BACK_K)
 
 
-def _beyond(x: Start, sign: float) -> float:
+def _leaves_start_k(x: Start, sign: float) -> float:
     """How far it leaves its start the way that it would if it had started warm (sign 1) or cold (-1) [K]."""
     return float(np.max(sign * (x.at_k - x.beside_k)))
 

@@ -66,7 +66,7 @@ def estimate_offset(t_here_ns: Int1D, here: Array, t_there_ns: Int1D, there: Arr
     at, lags, weights, matches = (np.array(x) for x in zip(*estimates, strict=True))
     offset, uncertainty, drift_ppm = _line(at, lags, weights, period)
     common = _common_phase(lags, [float(np.median(np.diff(t))) for t in (t_a, t_b)])
-    if common and all(_sudden(a[s]) and _sudden(_between(t_b, b, t_a[s] + lag_s)) for s in parts):
+    if common and all(_sudden(a[s]) and _sudden(_within_span(t_b, b, t_a[s] + lag_s)) for s in parts):
         uncertainty = float(np.hypot(uncertainty, common))
     return ClockEstimate(
         offset_ns=origin_b - origin_a + round(offset * 1e9),
@@ -207,7 +207,7 @@ def _sudden(x: Float1D) -> bool:
     return len(x) > 1 and float(np.abs(np.diff(x)).max()) > 0.5 * float(np.ptp(x))
 
 
-def _between(t: Float1D, x: Float1D, span: Float1D) -> Float1D:
+def _within_span(t: Float1D, x: Float1D, span: Float1D) -> Float1D:
     first, last = np.searchsorted(t, [span[0], span[-1]])
     return x[first : last + 1]
 

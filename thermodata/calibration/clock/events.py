@@ -39,7 +39,7 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
     typed = _TYPED_S / np.sqrt(len(off))
     if float(at[-1]) < _LEAST_SPAN_S:
         mean = float(off.mean())
-        _refuse(off - mean, at)
+        _refuse_contradiction(off - mean, at)
         return _estimate(base, mean, max(float(np.abs(off - mean).max()), typed), 0.0, origin, len(off))
     slope, start = np.polyfit(at, off, 1)
     left = off - (start + slope * at)
@@ -50,11 +50,11 @@ def offset_from_events(here_ns: Int1D, there_ns: Int1D) -> ClockEstimate:
             got=f"offsets that change by {off[-1] - off[0]:+.1f} s in {at[-1] / 3600:.1f} h ({slope * 1e6:+.0f} ppm)",
             hint="check which event is which, and the day of each time; a clock that was reset needs 'resets: allow'",
         )
-    _refuse(left, at)
+    _refuse_contradiction(left, at)
     return _estimate(base, float(start), max(float(np.abs(left).max()), typed), float(slope) * 1e6, origin, len(off))
 
 
-def _refuse(left: np.ndarray, at: np.ndarray) -> None:
+def _refuse_contradiction(left: np.ndarray, at: np.ndarray) -> None:
     worst = int(np.argmax(np.abs(left)))
     if abs(float(left[worst])) > _MOST_OFF_S:
         raise CalibrationError(

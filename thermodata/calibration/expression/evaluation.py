@@ -90,23 +90,23 @@ class Evaluation:
             case Comparison(operands, operators):
                 parts = [number(self.of(o)) for o in operands]
                 pairs = zip(parts[:-1], operators, parts[1:], strict=True)
-                return _every([self._compare(a, op, b) for a, op, b in pairs])
+                return _all_of([self._compare(a, op, b) for a, op, b in pairs])
             case Every(of):
-                return _every([logic(self.of(o)) for o in of])
+                return _all_of([logic(self.of(o)) for o in of])
             case AnyOf(of):
                 parts_ = [logic(self.of(o)) for o in of]
-                return _negated(_every([_negated(p) for p in parts_]))
+                return _negated(_all_of([_negated(p) for p in parts_]))
             case Not(of):
                 return _negated(logic(self.of(of)))
         raise AssertionError(f"unknown node {node!r}")
 
-    def _refuse(self, what: str, expected: str, got: str, hint: str | None = None) -> UsageError:
+    def _refusal(self, what: str, expected: str, got: str, hint: str | None = None) -> UsageError:
         return UsageError(what, where=f"expression '{self.text}'", expected=expected, got=got, hint=hint)
 
     def _name(self, name: str) -> Number:
         if name not in self.values:
             close = nearest(name, list(self.values))
-            raise self._refuse(
+            raise self._refusal(
                 f"no channel '{name}'",
                 ", ".join(sorted(self.values)) or "nothing: there is none",
                 name,
@@ -114,7 +114,7 @@ class Evaluation:
             )
         value = np.asarray(self.values[name])
         if value.dtype.kind not in "biuf":
-            raise self._refuse(
+            raise self._refusal(
                 f"channel '{name}' is text",
                 "numbers",
                 str(value.dtype),
@@ -137,7 +137,7 @@ class Evaluation:
             return a.value, b.value, None, False
         if a.unit is None or b.unit is None:
             unknown, known = (a, b) if a.unit is None else (b, a)
-            raise self._refuse(
+            raise self._refusal(
                 f"no unit is known of '{unknown.label}'",
                 f"one that converts to {known.unit or '1'}",
                 "no unit",
@@ -150,7 +150,7 @@ class Evaluation:
                 return a.value, b.value * delta_factor(b.unit or "1", a.unit or "1"), a.unit, False
             factor, offset = linear_conversion(b.unit or "1", a.unit or "1")
         except UsageError as error:
-            raise self._refuse(
+            raise self._refusal(
                 f"'{a.label}' and '{b.label}' have units that don't fit", a.unit or "no unit", b.unit or "no unit"
             ) from error
         return a.value, b.value * factor + offset, a.unit, False
@@ -163,7 +163,7 @@ class Evaluation:
         a_abs, b_abs = _is_offset(a), _is_offset(b)
         if b_abs and not a_abs and not a.bare and a.unit is not None:
             if operator == "-":
-                raise self._refuse("a temperature subtracted from a difference", "degC - K or degC - degC", label)
+                raise self._refusal("a temperature subtracted from a difference", "degC - K or degC - degC", label)
             a, b, a_abs, b_abs = b, a, True, False
         x, y, unit, bare = self._right_in_left(a, b, difference=a_abs and not b_abs)
         value = x + sign * y
@@ -183,7 +183,7 @@ class Evaluation:
             with_unit = next((n for n in (a, b) if n.unit and not n.bare), None)
             if with_unit is not None:
                 unknown = a if a_unit is None else b
-                raise self._refuse(
+                raise self._refusal(
                     f"no unit is known of '{unknown.label}'",
                     f"a unit, beside '{with_unit.label}' in {with_unit.unit}",
                     "no unit",
@@ -202,7 +202,7 @@ class Evaluation:
             # 1 degC against a difference is 1 K; 293 K against a temperature is 19.85 degC
             a, b = (_as_difference(x) if _is_offset(x) and x.literal else x for x in (a, b))
             if not (a.literal or b.literal):
-                raise self._refuse(
+                raise self._refusal(
                     "a temperature compared with a difference",
                     "both of a kind",
                     f"'{a.label}' in {a.unit} and '{b.label}' in {b.unit}",
@@ -240,7 +240,7 @@ def _negated(a: Logic) -> Logic:
     return Logic(a.no, a.yes)
 
 
-def _every(parts: list[Logic]) -> Logic:
+def _all_of(parts: list[Logic]) -> Logic:
     yes, no = parts[0].yes, parts[0].no
     for part in parts[1:]:
         yes, no = yes & part.yes, no | part.no

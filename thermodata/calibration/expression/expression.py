@@ -37,13 +37,13 @@ class Expression:
         """
         result = Evaluation(values, units or {}, self.text).of(self.tree)
         if isinstance(result, Logic):
-            return self._like(values, np.asarray(result.yes, dtype=bool))
-        return self._like(values, np.asarray(result.value, dtype=np.float64))
+            return self._in_shape_of(values, np.asarray(result.yes, dtype=bool))
+        return self._in_shape_of(values, np.asarray(result.value, dtype=np.float64))
 
     def evaluate_bool(self, values: Mapping[str, Array], units: Mapping[str, str] | None = None) -> Bool1D:
         """As `evaluate`; a number counts as true where it is known and not 0."""
         result = logic(Evaluation(values, units or {}, self.text).of(self.tree))
-        return self._like(values, np.asarray(result.yes, dtype=bool))
+        return self._in_shape_of(values, np.asarray(result.yes, dtype=bool))
 
     def evaluate_in(self, values: Mapping[str, Array], units: Mapping[str, str], target_unit: str) -> Float1D:
         """Float64 in `target_unit`: (dY_high - dY_low) / 100 mm, from um, in urad. UsageError where it can't be."""
@@ -51,7 +51,7 @@ class Expression:
         factor, offset = 1.0, 0.0
         if not result.bare and result.unit is not None:
             factor, offset = self._conversion(result, target_unit)
-        return self._like(values, np.asarray(result.value, dtype=np.float64) * factor + offset)
+        return self._in_shape_of(values, np.asarray(result.value, dtype=np.float64) * factor + offset)
 
     def unit(self, units: Mapping[str, str]) -> str | None:
         """The unit that `evaluate` gives with these units of the channels; "" for none, None for unknown."""
@@ -59,7 +59,7 @@ class Expression:
         result = number(Evaluation({key: np.zeros(1) for key in keys}, units, self.text).of(self.tree))
         return result.unit
 
-    def _like(self, values: Mapping[str, Array], result: Array) -> Array:
+    def _in_shape_of(self, values: Mapping[str, Array], result: Array) -> Array:
         """A result in the shape of the values that it is of: one of constants alone stands at each of them."""
         shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
         return np.broadcast_to(result, shape).copy()

@@ -60,7 +60,7 @@ class _Parser:
         self.text, self.rates, self.at, self.depth, self.size = text, rates, 0, 0, 0
         self.names, self.rated = set[str](), set[str]()
         self.kind, self.token = "", ""
-        self._next()
+        self._next_token()
 
     def _fail(self, what: str, expected: str, at: int | None = None, hint: str | None = None) -> UsageError:
         place = self.at - len(self.token) if at is None else at
@@ -72,7 +72,7 @@ class _Parser:
             hint=hint,
         )
 
-    def _next(self) -> None:
+    def _next_token(self) -> None:
         match = _TOKEN.match(self.text, self.at)
         if match is None:
             rest = self.text[self.at :].strip()
@@ -85,10 +85,10 @@ class _Parser:
         self.at = match.end()
         self.kind, self.token = str(match.lastgroup), str(match[str(match.lastgroup)])
 
-    def _take(self, *tokens: str) -> str | None:
+    def _take_token(self, *tokens: str) -> str | None:
         if self.kind in ("op", "name") and self.token in tokens:
             token = self.token
-            self._next()
+            self._next_token()
             return token
         return None
 
@@ -98,25 +98,25 @@ class _Parser:
             raise self._fail(f"unexpected '{self.token}'", "an operator or the end", hint=hint)
 
     def either(self) -> Node:
-        parts = [self._both()]
-        while self._take("or"):
-            parts.append(self._both())
+        parts = [self._conjunction()]
+        while self._take_token("or"):
+            parts.append(self._conjunction())
         return parts[0] if len(parts) == 1 else nodes.AnyOf(tuple(parts))
 
-    def _both(self) -> Node:
+    def _conjunction(self) -> Node:
         parts = [self._negation()]
-        while self._take("and"):
+        while self._take_token("and"):
             parts.append(self._negation())
         return parts[0] if len(parts) == 1 else nodes.Every(tuple(parts))
 
     def _negation(self) -> Node:
-        if self._take("not"):
+        if self._take_token("not"):
             return nodes.Not(self._nested(self._negation))
         return self._comparison()
 
     def _comparison(self) -> Node:
         operands, operators = [self._sum()], []
-        while operator := self._take(*COMPARE):
+        while operator := self._take_token(*COMPARE):
             operators.append(cast(Comparator, operator))
             operands.append(self._sum())
         return nodes.Comparison(tuple(operands), tuple(operators)) if operators else operands[0]
@@ -129,7 +129,7 @@ class _Parser:
 
     def _chain(self, part: Callable[[], Node], *operators: str) -> Node:
         left = part()
-        while operator := self._take(*operators):
+        while operator := self._take_token(*operators):
             self.size += 1
             if self.size > 5 * _DEEPEST:  # a left-leaning chain is as deep as it is long
                 raise self._fail("an expression with too many operations", f"at most {5 * _DEEPEST}")
@@ -145,12 +145,12 @@ class _Parser:
         return node
 
     def _factor(self) -> Node:
-        if sign := self._take("-", "+"):
+        if sign := self._take_token("-", "+"):
             node = self._nested(self._factor)
             return nodes.Negative(node) if sign == "-" else node
         if self.kind == "number":
             return self._number()
-        if self._take("("):
+        if self._take_token("("):
             return self._closed(self._nested(self.either))
         if self.kind == "name" and self.token not in _WORDS - {"abs"}:
             return self._name()
@@ -160,14 +160,14 @@ class _Parser:
         )
 
     def _closed(self, node: Node) -> Node:
-        if not self._take(")"):
+        if not self._take_token(")"):
             raise self._fail("a parenthesis is not closed", "')'")
         return node
 
     def _name(self) -> Node:
         name, at = self.token, self.at - len(self.token)
-        self._next()
-        if self._take("("):
+        self._next_token()
+        if self._take_token("("):
             if name == "rate":
                 return self._rate(at)
             if name != "abs":
@@ -192,8 +192,8 @@ class _Parser:
         name = self.token
         one = self.kind == "name" and name not in _WORDS
         if one:
-            self._next()
-        if not one or not self._take(")"):
+            self._next_token()
+        if not one or not self._take_token(")"):
             raise self._fail(
                 "a rate is of one channel, as it was logged",
                 "rate(x_pos)",
@@ -211,9 +211,9 @@ class _Parser:
             words = words.rpartition("/")[0] if "/" in words else (words[:-2] if words[-2:-1] == "-" else "")
         if words and words.split("/")[0] not in _WORDS:
             self.at = match.start("unit") + len(words)
-            self._next()
+            self._next_token()
             return nodes.Constant(value, words)
-        self._next()
+        self._next_token()
         if self.kind == "name" and self.token not in _WORDS:
             raise self._fail(
                 f"'{self.token}' after a number is not a unit",

@@ -84,7 +84,7 @@ def evaluate_jump(
             "unit_out": "um",
             "moves_um": moves,
             "steps_found": len(steps),
-            "steps_beside": _beside(steps, match),
+            "steps_beside": _steps_without_move(steps, match),
             "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
             "plateaus": [_row(p, level, rest) for p, level, rest in zip(dwells, levels, fit.residual_um, strict=True)],
         },
@@ -126,7 +126,7 @@ def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tu
     return steps, match
 
 
-def _beside(steps: list[Step], match: Match) -> int:
+def _steps_without_move(steps: list[Step], match: Match) -> int:
     """How many steps as large as a commanded move no move accounts for."""
     least = _AS_LARGE * min(abs(s.size) for s in match.steps)
     moved = {s.t_s for s in match.steps}

@@ -208,7 +208,7 @@ def plateaus(t_s: Float1D, volts: Float1D, match: Match, steps: list[Step], dwel
     later = [s.from_s for s in steps if s.t_s > inner[-1].t_s]
     starts = [max([float(t_s[0]), inner[0].from_s - dwell_s, *earlier])] + [s.to_s for s in inner]
     ends = [s.from_s for s in inner] + [min([float(t_s[-1]), inner[-1].to_s + dwell_s, *later])]
-    return [_plateau(t_s, volts, a, b) for a, b in zip(starts, ends, strict=True)]
+    return [_plateau_between(t_s, volts, a, b) for a, b in zip(starts, ends, strict=True)]
 
 
 def at_rest(t_s: Float1D, start: float, end: float) -> Bool1D:
@@ -218,7 +218,7 @@ def at_rest(t_s: Float1D, start: float, end: float) -> Bool1D:
     return (t_s >= start + margin) & (t_s <= end - margin)
 
 
-def _plateau(t_s: Float1D, volts: Float1D, start: float, end: float) -> Plateau:
+def _plateau_between(t_s: Float1D, volts: Float1D, start: float, end: float) -> Plateau:
     inside = at_rest(t_s, start, end)
     t, v = t_s[inside], volts[inside]
     if len(t) < 3:

@@ -128,10 +128,10 @@ def held_runs(
             continue
         jump_in = abs(x[start] - x[start - 1]) if start else 0.0
         jump_out = abs(x[stop] - x[stop - 1]) if stop < len(x) else 0.0
-        moved = [k for k, s in stats.items() if k in others and s.float_like and _moves(others[k], start, stop)]
+        moved = [k for k, s in stats.items() if k in others and s.float_like and _changes_often(others[k], start, stop)]
         if own.alternates < 0.2 and not (moved and jump_out > 8 * own.step):
             continue
-        stuck = bool(jump_in > max(50 * own.step, 1e-12)) and jump_in > 0.2 * _spread(x, start)
+        stuck = bool(jump_in > max(50 * own.step, 1e-12)) and jump_in > 0.2 * _range_before(x, start)
         why = f"exactly {x[start]:.6g} for {length} samples"
         if moved:
             why += f" while {', '.join(moved[:3])} moved"
@@ -153,12 +153,12 @@ def refreshed(lengths: Int1D, samples: int) -> tuple[int, float]:
     return round(every), float(min(1 - usual.sum() / times[usual].sum(), 0.99))
 
 
-def _moves(x: Array, start: int, stop: int) -> bool:
+def _changes_often(x: Array, start: int, stop: int) -> bool:
     part = x[start : min(stop, start + 2000)]
     return bool(np.mean(part[1:] != part[:-1]) > 0.2)
 
 
-def _spread(x: Float1D, before: int) -> float:
+def _range_before(x: Float1D, before: int) -> float:
     past = x[max(0, before - 2000) : before]
     past = past[np.isfinite(past)]
     return float(np.ptp(past)) if len(past) else 0.0

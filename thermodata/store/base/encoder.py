@@ -48,7 +48,7 @@ class Encoder:
         # row groups of wide streams are large, and so is the footer that grows with their columns
         self._queue: Queue[pa.Table | None] = Queue(maxsize=1 if len(schema) > _WIDE else 2)
         self._error: BaseException | None = None
-        self._thread = threading.Thread(target=self._run, name="raw-parquet", daemon=True)
+        self._thread = threading.Thread(target=self._write_queued, name="raw-parquet", daemon=True)
         self._thread.start()
 
     def put(self, table: pa.Table) -> None:
@@ -61,7 +61,7 @@ class Encoder:
         if self._error is not None:
             raise self._error
 
-    def _run(self) -> None:
+    def _write_queued(self) -> None:
         while (table := self._queue.get()) is not None:
             if self._error is None:
                 try:

@@ -19,16 +19,16 @@ def plain_value(value: Any) -> float | str | bool | None:
 
     A number whose unit is unknown keeps its text, for its number alone would say nothing.
     """
-    return _plain(value)[0]
+    return _value_and_unit(value)[0]
 
 
 def plain_unit(value: Any) -> str | None:
     """The unit that `plain_value` gives a number in: '600 mm/min' -> 'm/min'; None of a text, and of a number that was
     written without one."""
-    return _plain(value)[1]
+    return _value_and_unit(value)[1]
 
 
-def _plain(value: Any) -> tuple[float | str | bool | None, str | None]:
+def _value_and_unit(value: Any) -> tuple[float | str | bool | None, str | None]:
     if value is None or isinstance(value, bool):
         return value, None
     if isinstance(value, int | float):

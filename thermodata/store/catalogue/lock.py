@@ -69,7 +69,7 @@ _MOST_STEP_S = 0.5  # of one look at the lock and the pause before it
 def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) -> Iterator[None]:
     """Holds the catalogue, shared for reading or exclusive for writing; StoreError when it stays busy."""
     patience = _Patience(timeout_s)
-    turnstile = _open(folder / TURNSTILE, exclusive)
+    turnstile = _open_lock(folder / TURNSTILE, exclusive)
     if turnstile is None:
         # a store that may only be read: whoever may write it can lock the one file that is there
         with _reading(folder, patience):
@@ -77,7 +77,7 @@ def catalogue_lock(folder: Path, *, exclusive: bool, timeout_s: float = 60.0) ->
         return
     try:
         _wait(turnstile, True, patience, folder)
-        catalogue = _open(folder / CATALOGUE, exclusive)
+        catalogue = _open_lock(folder / CATALOGUE, exclusive)
         try:
             if catalogue is not None:
                 _wait(catalogue, exclusive, patience, folder)
@@ -111,7 +111,7 @@ def _reading(folder: Path, patience: _Patience) -> Iterator[None]:
 _FLAGS = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 
 
-def _open(path: Path, exclusive: bool) -> int | None:
+def _open_lock(path: Path, exclusive: bool) -> int | None:
     """A lock file, made where there is none; None where the folder may only be read, and no more is wanted."""
     try:
         return os.open(path, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)

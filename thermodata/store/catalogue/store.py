@@ -120,7 +120,7 @@ class Store:
         """The mark of a commit, and a copy in memory of the catalogue as of then."""
         con = connection.memory(self.path)  # before the turn: it takes longer than the turn
         try:
-            with self._turn(exclusive=False):
+            with self._catalogue_locked(exclusive=False):
                 mark = self.mark()
                 self._copy_into(con)
             _our_views(con, self.path)
@@ -168,7 +168,7 @@ class Store:
         with self._guard:
             con = connection.memory(self.path)  # before the turn: it takes 20 ms
             try:
-                with self._turn(exclusive=True), self._opened(con):
+                with self._catalogue_locked(exclusive=True), self._attached_for_writing(con):
                     ours = of_this_version(con)  # outside of the transaction, which would end if it fails
                     con.execute("begin transaction")
                     try:
@@ -187,7 +187,7 @@ class Store:
                 con.close()
 
     @contextmanager
-    def _opened(self, con: duckdb.DuckDBPyConnection) -> Iterator[None]:
+    def _attached_for_writing(self, con: duckdb.DuckDBPyConnection) -> Iterator[None]:
         """The catalogue attached for writing, in this program's format."""
         connection.attach(con, self.path)
         try:
@@ -197,7 +197,7 @@ class Store:
         finally:
             connection.detach(con)
 
-    def _turn(self, *, exclusive: bool) -> AbstractContextManager[None]:
+    def _catalogue_locked(self, *, exclusive: bool) -> AbstractContextManager[None]:
         return catalogue_lock(self.path, exclusive=exclusive, timeout_s=self.timeout_s)
 
     @contextmanager
@@ -206,7 +206,7 @@ class Store:
         with self._guard:
             con = connection.memory(self.path)
             try:
-                with self._turn(exclusive=True):
+                with self._catalogue_locked(exclusive=True):
                     self._copy_into(con)
                     yield con
             finally:
@@ -222,7 +222,7 @@ class Store:
                 got=str(error),
                 hint="name another folder with --store",
             ) from error
-        with self._turn(exclusive=True):
+        with self._catalogue_locked(exclusive=True):
             if not self.is_at(self.path) or not_begun(self.path):  # else another process was first
                 create_catalogue(self.path)
 

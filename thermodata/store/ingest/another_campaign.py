@@ -92,7 +92,7 @@ class _Compared:
 
     def of_other_days(self) -> list[str]:
         """The tests whose own logs are all of other days than those that are held, and none of them is held."""
-        shared = self._shared()
+        shared = self._logs_of_several_tests()
         known = _all_of(self.held) - shared
         return [t.id for t in self.named if not self.found[t.id] & known and self._days(t, shared) is False]
 
@@ -102,20 +102,21 @@ class _Compared:
         return [
             t.id
             for t in self.named
-            if (both := self.held[t.id] & self.found[t.id]) and self._days(t, self._shared() | both) is False
+            if (both := self.held[t.id] & self.found[t.id])
+            and self._days(t, self._logs_of_several_tests() | both) is False
         ]
 
     def goes_on(self) -> bool:
         """Whether no test has a log now, or one has a log of its own that is held, or one of the same days."""
         if not any(self.found[t.id] for t in self.named):
             return True
-        shared = self._shared()
+        shared = self._logs_of_several_tests()
         return any((self.held[t.id] & self.found[t.id]) - shared or self._days(t, shared) for t in self.named)
 
     def _days(self, test: Test, shared: Set[str]) -> bool | None:
         return is_of_its_days(self.inventory, self.files, test, shared)
 
-    def _shared(self) -> set[str]:
+    def _logs_of_several_tests(self) -> set[str]:
         """Logs that say nothing of one test; none where no test that is held has another one, as where all are cut out
         of one recording."""
         shared = _of_several(self.held) | _of_several(self.found)

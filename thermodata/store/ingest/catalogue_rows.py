@@ -196,10 +196,10 @@ def calibration_row(campaign: str, result: CalibrationResult) -> Row:
 
 
 def _json(value: Any) -> str:
-    return json.dumps(value, sort_keys=True, default=_plain)
+    return json.dumps(value, sort_keys=True, default=_json_default)
 
 
-def _plain(value: Any) -> Any:
+def _json_default(value: Any) -> Any:
     if hasattr(value, "tolist"):
         return value.tolist()
     return str(plain_value(value))

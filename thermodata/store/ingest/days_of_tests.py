@@ -32,11 +32,11 @@ def _spans(inventory: Inventory, test: str, shared: Set[str]) -> Iterator[tuple[
     for row in inventory.rows["file"].get(test, ()):
         if row["layer"] == "raw" and row["sha256"] not in shared:
             raw = RawStream.from_row(row)
-            if (first := _first(raw, inventory.rows["test"].get(test, ()))) is not None:
+            if (first := _begin_ns(raw, inventory.rows["test"].get(test, ()))) is not None:
                 yield first, first + raw.last_ns - raw.first_ns
 
 
-def _first(raw: RawStream, rows: Iterable[Row]) -> int | None:
+def _begin_ns(raw: RawStream, rows: Iterable[Row]) -> int | None:
     """When a log begins [ns since 1970]: where it does not say so, with its test."""
     if raw.clock == "absolute":
         return raw.first_ns

@@ -23,14 +23,14 @@ def refuse_older_reader(inventory: Inventory, files: CampaignFiles) -> None:
         for row in rows:
             if row["layer"] == "raw":
                 name, version = meta_of(row)["reader"], meta_of(row)["reader_version"]
-                kept[name] = max(kept.get(name, ""), version, key=_counted)
+                kept[name] = max(kept.get(name, ""), version, key=_release_numbers)
     for source, spec in files.campaign.sources.items():
         try:
             reader = files.reader(spec.reader, source)
         except UsageError:
             continue  # told where a file needs it
         here, there = version_of(reader), kept.get(reader.name, "")
-        if _counted(here) and _counted(here) < _counted(there):
+        if _release_numbers(here) and _release_numbers(here) < _release_numbers(there):
             raise UsageError(
                 f"the store holds this campaign as a newer reader '{reader.name}' made it",
                 where=f"sources.{source}.reader",
@@ -41,7 +41,7 @@ def refuse_older_reader(inventory: Inventory, files: CampaignFiles) -> None:
             )
 
 
-def _counted(version: str) -> tuple[int, ...]:
+def _release_numbers(version: str) -> tuple[int, ...]:
     """() for what is no release, which is neither older nor newer."""
     return tuple(map(int, version.split("."))) if _RELEASE.fullmatch(version) else ()
 

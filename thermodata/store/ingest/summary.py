@@ -77,7 +77,7 @@ def summarize(
         read=layers.raw.read,
         made=layers.tidy.new_streams,
         calibrations=[
-            _told(r.row(campaign.id), r.name)
+            _calibration_answer(r.row(campaign.id), r.name)
             | {MOVES: getattr(campaign.calibrations[r.name], "move_uncertainty", None)}
             for r in layers.calibrations.values()
         ],
@@ -148,6 +148,6 @@ def _summed(counts: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return dict(sorted(total.items()))
 
 
-def _told(row: dict[str, Any], name: str) -> dict[str, Any]:
+def _calibration_answer(row: dict[str, Any], name: str) -> dict[str, Any]:
     """A calibration as the answer of an ingest has it."""
     return {**row, "name": name, "checks": with_limits(row["checks"])}

@@ -42,14 +42,14 @@ def forget(
             raise unknown_name("test", test, tests)
         if earlier:
             n = forget_earlier(con, campaign, None if test is None else [test])
-            return _answer(campaign, test, versions=n)
+            return _what_was_forgotten(campaign, test, versions=n)
         gone = tests if test is None else [test]
         if test is None and not models:
             _refuse_models_of_others(con, campaign)
         looks = keep_looks(con, campaign, gone)
         if test is None:
-            return _answer(campaign, test, tests=gone, models=_forget_campaign(con, campaign), looks=looks)
-        return _answer(campaign, test, tests=gone, stale=_forget_test(con, campaign, test), looks=looks)
+            return _what_was_forgotten(campaign, test, tests=gone, models=_forget_campaign(con, campaign), looks=looks)
+        return _what_was_forgotten(campaign, test, tests=gone, stale=_forget_test(con, campaign, test), looks=looks)
 
 
 def forget_models(store: Store, models: Sequence[str]) -> dict[str, Any]:
@@ -135,7 +135,7 @@ def _refuse_models_of_others(con: duckdb.DuckDBPyConnection, campaign: str) -> N
         )
 
 
-def _answer(campaign: str, test: str | None, **gone: Any) -> dict[str, Any]:
+def _what_was_forgotten(campaign: str, test: str | None, **gone: Any) -> dict[str, Any]:
     nothing = {"tests": [], "models": [], "stale": [], "versions": 0, "looks": 0}
     return {"campaign": campaign, "test": test, **nothing, **gone}
 

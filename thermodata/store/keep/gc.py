@@ -28,11 +28,11 @@ def gc(store: Store, grace_s: float = 3600.0) -> dict[str, Any]:
     limit = time.time() - grace_s
     removed, freed, young = 0, 0, 0
     with store.reader() as con:
-        candidates = _unnamed(_files(store.path), store.path, _named_by_rows(con))
+        candidates = _files_of_no_row(_files(store.path), store.path, _named_by_rows(con))
     for start in range(0, len(candidates), _BATCH):
         # in turns, so that no writer waits for the whole of it
         with store.standstill() as con:
-            for path in _unnamed(candidates[start : start + _BATCH], store.path, _named_by_rows(con)):
+            for path in _files_of_no_row(candidates[start : start + _BATCH], store.path, _named_by_rows(con)):
                 try:
                     size = _deleted(path, limit)
                 except FileNotFoundError:
@@ -67,7 +67,7 @@ def _deleted(path: Path, limit: float) -> int | None:
     return status.st_size
 
 
-def _unnamed(paths: list[Path], store: Path, kept: set[str]) -> list[Path]:
+def _files_of_no_row(paths: list[Path], store: Path, kept: set[str]) -> list[Path]:
     return [p for p in paths if p.relative_to(store).as_posix() not in kept]
 
 

@@ -60,7 +60,7 @@ def snapshot(store: Store, out: Path | str) -> Path:
         connection.finish(con, "snap")
         publish(part, target)
     except duckdb.Error as error:
-        raise _refused(target, error, store) from error
+        raise _error_of_export(target, error, store) from error
     finally:
         con.close()
         connection.drop_database(part)
@@ -104,7 +104,7 @@ def _sweep(target: Path) -> None:
                 path.unlink()
 
 
-def _refused(target: Path, error: Exception, store: Store) -> StoreError:
+def _error_of_export(target: Path, error: Exception, store: Store) -> StoreError:
     known = connection.damaged_data(store.path, error)
     if known is not None:
         return known

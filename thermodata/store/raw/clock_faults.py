@@ -71,17 +71,17 @@ class Faults:
                 self._reset(t, row, first, high)
             else:
                 self.keep = first + row
-                self._done(t[:row])
+                self._remember_times(t[:row])
                 return False
             self._highest, at = int(t[row]), row
-        self._done(t[:own])
+        self._remember_times(t[:own])
         return True
 
     def _joins(self, high: int, back: int) -> bool:
         """Whether rows from a step back on, from one time to another [ns], are moved behind those before."""
         return high - back <= SMALL_NS or (self.resets_allowed and 2 * high - back < FARTHEST_NS)
 
-    def _done(self, t: Int1D) -> None:
+    def _remember_times(self, t: Int1D) -> None:
         self._highest = max(self._highest, int(t.max(initial=self._highest)))
         self._recent = np.concatenate([self._recent, t])[-_RECENT:]
         self.lowest.append(int(t.min(initial=np.iinfo(np.int64).max)))

@@ -48,7 +48,7 @@ class RawFile:
                 if high >= stop and not arrays:
                     arrays = parts
                 else:
-                    arrays = _filled(arrays, parts, max(start, low) - start, stop - start)
+                    arrays = _put_behind(arrays, parts, max(start, low) - start, stop - start)
                 at += 1
             if not arrays:
                 empty = self._file.schema_arrow.empty_table().select(list(wanted))
@@ -69,7 +69,7 @@ class RawFile:
         self._file.close()
 
 
-def _filled(arrays: list[Array], parts: list[Array], at: int, rows: int) -> list[Array]:
+def _put_behind(arrays: list[Array], parts: list[Array], at: int, rows: int) -> list[Array]:
     """Puts the parts behind what is there: into their place, so that no row group outlives its reading."""
     if not arrays:
         arrays = [np.empty(rows, part.dtype) for part in parts]

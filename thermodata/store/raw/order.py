@@ -104,7 +104,7 @@ def _looked_at(
 ) -> Order:
     """The order of n rows by the faults of their clock alone; see `find_order`."""
     faults = Faults(resets_allowed, disorder_ns)
-    looked = times if sound is None or not len(sound) else _standing(times, sound)
+    looked = times if sound is None or not len(sound) else _times_held(times, sound)
     for first in range(0, n, CHUNK_ROWS):
         t = looked(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
         if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
@@ -122,7 +122,7 @@ def _looked_at(
     return replace(order, islands=_islands(times, order, faults.lowest))
 
 
-def _standing(times: Times, sound: Int1D) -> Times:
+def _times_held(times: Times, sound: Int1D) -> Times:
     """Times of which those of some stretches are replaced by the one before them."""
 
     def looked(start: int, stop: int) -> Int1D:

@@ -101,7 +101,7 @@ class RawStream:
         return _stream_of(*(row[name] for name in (*_OF_ROW, "columns", "losses")))
 
     @classmethod
-    def _from(cls, row: Mapping[str, Any]) -> RawStream:
+    def _from_row(cls, row: Mapping[str, Any]) -> RawStream:
         meta = json.loads(row["columns"])
         signals = tuple(
             Signal(
@@ -160,4 +160,4 @@ _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
 @lru_cache(maxsize=4096)
 def _stream_of(*row: Any) -> RawStream:
     """An ingest meets each row twice: among all that the store holds, and as what a test was made of."""
-    return RawStream._from(dict(zip((*_OF_ROW, "columns", "losses"), row, strict=True)))
+    return RawStream._from_row(dict(zip((*_OF_ROW, "columns", "losses"), row, strict=True)))

@@ -114,7 +114,7 @@ class _Rows:
         """Rows start to stop beside all those before a stretch that begins at `begin`."""
         t, own = self.times(start, stop), self.keys(start, stop)
         low, high = int(t.min()), int(t.max())
-        whole = _mixed(t.view(np.uint64), own)
+        whole = _mixed_hashes(t.view(np.uint64), own)
         same, there = np.zeros(len(t), bool), np.zeros(len(t), bool)
         for chunk, first in enumerate(range(0, begin, CHUNK_ROWS)):
             if self.lows[chunk] > high or self.highs[chunk] < low:
@@ -125,7 +125,7 @@ class _Rows:
                 continue
             p, q = int(within[0]), int(within[-1]) + 1
             there |= np.isin(t, before[p:q])
-            same |= np.isin(whole, _mixed(before[p:q].view(np.uint64), self.keys(first + p, first + q)))
+            same |= np.isin(whole, _mixed_hashes(before[p:q].view(np.uint64), self.keys(first + p, first + q)))
         return _Compared(same, there & ~same, own)
 
 
@@ -198,7 +198,7 @@ def keys_of(columns: Iterable[Array], n: int) -> Hashes:
             if values.dtype.kind in "iu":  # what a float64 does not hold
                 rest = np.where(np.abs(number) < 2.0**53, 0, values.astype(np.uint64))
                 bits = bits ^ rest.astype(np.uint64)
-        keys = _mixed(keys, bits)
+        keys = _mixed_hashes(keys, bits)
     return keys
 
 
@@ -209,7 +209,7 @@ def batches(names: Sequence[str], rows: int) -> Iterator[Sequence[str]]:
         yield names[k : k + width]
 
 
-def _mixed(a: Hashes, b: Hashes) -> Hashes:
+def _mixed_hashes(a: Hashes, b: Hashes) -> Hashes:
     """Two numbers in one, as splitmix64 stirs them."""
     x = a * np.uint64(0x9E3779B97F4A7C15) + b
     x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)

@@ -82,7 +82,7 @@ def frozen(path: Path, folder: Path) -> Iterator[SourceFile]:
             left = os.fstat(handle.fileno()).st_size
             while left and (data := handle.read(min(left, _CHUNK))):
                 digest.update(data)
-                _put(out, data, copy)
+                _write_copy(out, data, copy)
                 left -= len(data)
         status = copy.stat()
         yield SourceFile(
@@ -109,7 +109,7 @@ def _room(place: Path, copy: Path) -> Iterator[BinaryIO]:
         yield out
 
 
-def _put(out: BinaryIO, data: bytes, copy: Path) -> None:
+def _write_copy(out: BinaryIO, data: bytes, copy: Path) -> None:
     try:
         while data:
             data = data[out.write(data) :]

@@ -79,16 +79,16 @@ def _of_stream(plan: SourcePlan, source: str, stream: str, clock: Clock) -> Iter
     own = {r.path for r in raws}
     if parts := sorted((k, repr(v)) for k, v in plan.parts.items() if k[0] in own):
         yield repr(parts)
-    yield from (source, stream, repr([(r.key, r.path, *_moved(r)) for r in raws]))
+    yield from (source, stream, repr([(r.key, r.path, *_shift_of(r)) for r in raws]))
     yield repr((clock.offset_ns, clock.drift_ppm, clock.base_ns, clock.suspect, plan.spec.clock.resets, plan.shared))
 
 
 def _of_reference(plan: TestPlan, clocks: Mapping[str, Clock]) -> str:
     """The raw files and clocks that say when the test ran."""
-    return repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws])
+    return repr([(r.key, *_shift_of(r), clocks[s.name]) for s in plan.reference for r in s.raws])
 
 
-def _moved(raw: RawStream) -> tuple[int, ...]:
+def _shift_of(raw: RawStream) -> tuple[int, ...]:
     return (raw.moved_ns,) if raw.moved_ns else ()
 
 

@@ -152,13 +152,13 @@ def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> Non
         if name in channels:
             channels[name].flags = channels[name].flags | np.uint16(Flag.STUCK)
     if verdict.foreign is not None:
-        within = _within(t_s, verdict.foreign[0], verdict.foreign[1])
+        within = _from_a_to_b(t_s, verdict.foreign[0], verdict.foreign[1])
         if within.any():
             for column in channels.values():
                 column.flags = column.flags | np.where(within, np.uint16(Flag.FOREIGN), np.uint16(0))
 
 
-def _within(t_s: Float1D, a: float | None, b: float | None) -> Bool1D:
+def _from_a_to_b(t_s: Float1D, a: float | None, b: float | None) -> Bool1D:
     """Where a time lies from a to b [s], ends included; None: no end."""
     return np.asarray((t_s >= (-np.inf if a is None else a)) & (t_s <= (np.inf if b is None else b)))
 

@@ -136,7 +136,7 @@ class _Tracer:
         )
         if t_s is not None:
             answer["sample"] = find_sample(
-                self.con, self.store.path, self.name, self.of, row, t_s, self._again if self.verify else None
+                self.con, self.store.path, self.name, self.of, row, t_s, self._read_again if self.verify else None
             )
         if answer["derive"]:
             answer["operands"] = [
@@ -183,7 +183,7 @@ class _Tracer:
     def _folder(self) -> Path:
         return Path(self.kept["path"]).parent
 
-    def _again(self, raw: RawStream, row: int, signal: str, source: str) -> Answer:
+    def _read_again(self, raw: RawStream, row: int, signal: str, source: str) -> Answer:
         """A row read in its source file once more, by the reader of today."""
         stand = self._stand({"source_path": raw.source_path, "sha256": raw.sha256})
         if stand != "unchanged":

@@ -95,7 +95,7 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     known = con.execute(
         "select campaign from campaign union select campaign from test union select campaign from file order by 1"
     ).fetchall()
-    described = _described(con)
+    described = _descriptions(con)
     namer, campaign_namer = Namer(), Namer()
     campaigns = {campaign: campaign_namer(campaign) for (campaign,) in known}
     files: dict[tuple[str, str, str, str | None, str | None], dict[str, list[str]]] = {}
@@ -131,7 +131,7 @@ def read_catalogue(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -
     return Catalogue(campaigns, tuple(groups), order)
 
 
-def _described(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str, str, str]]]:
+def _descriptions(con: duckdb.DuckDBPyConnection) -> dict[str, dict[str, tuple[str, str, str]]]:
     """campaign -> channel -> (quantity, unit, comment), in the order of the table."""
     rows = con.execute(
         "select campaign, channel, first(quantity order by rowid), first(unit order by rowid), "

@@ -150,7 +150,7 @@ def held_sums(column: Column, step: str, invalid: int = int(INVALID), name: str 
     )
 
 
-def _filled(i: int, column: Column) -> str:
+def _neighbour_bins(i: int, column: Column) -> str:
     """Window expressions for a column of source i: its last and next bins that hold a value."""
     value, n = f"s__{i}.{quoted(column.name)}", f"{i}__{column.name}"
     last = f"last_value({value} ignore nulls) over before as {quoted('pv__' + n)}"
@@ -211,7 +211,7 @@ def _binned(campaign: str, groups: list[Group], channels: tuple[str, ...]) -> st
         f"else 0 end from e__{i}) as reach__{i}"
         for i in range(len(groups))
     )
-    windows = ", ".join(_filled(i, c) for i, g in enumerate(groups) for c in g.columns)
+    windows = ", ".join(_neighbour_bins(i, c) for i, g in enumerate(groups) for c in g.columns)
     joins = " ".join(f"left join s__{i} on s__{i}.b__k = g.k" for i in range(len(groups)))
     out = _by_channel(groups, channels, _value)
     return (

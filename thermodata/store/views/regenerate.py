@@ -78,8 +78,8 @@ def regenerate(con: duckdb.DuckDBPyConnection, folder: Path | None) -> None:
 
     try:
         wanted = _by_object(statements(con, read_catalogue(con, folder), folder))
-        known = _known(con)
-        todo = _dropped(con) if known is None else [_drop(name) for name in known if name not in wanted]
+        known = _digests_of_made(con)
+        todo = _dropped(con) if known is None else [_drop_statement(name) for name in known if name not in wanted]
         digests = {name: _digest(texts) for name, texts in wanted.items()}
         for name, texts in wanted.items():
             if known is None or known.get(name) != digests[name]:
@@ -150,7 +150,7 @@ def _digest(texts: list[str]) -> str:
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
 
-def _known(con: duckdb.DuckDBPyConnection) -> dict[str, str] | None:
+def _digests_of_made(con: duckdb.DuckDBPyConnection) -> dict[str, str] | None:
     """Object -> digest of the statements that made it, of those that are there; None where nobody has kept them."""
     views = {name for (name,) in con.execute(f"select view_name from duckdb_views() where {_HERE}").fetchall()}
     if _MADE not in views:
@@ -159,7 +159,7 @@ def _known(con: duckdb.DuckDBPyConnection) -> dict[str, str] | None:
     return {name: digest for name, digest in kept if not name.startswith("view ") or name[5:] in views}
 
 
-def _drop(name: str) -> str:
+def _drop_statement(name: str) -> str:
     kind, _, bare = name.rpartition(" ")
     return "select 1" if kind == "comment on" else f"drop {kind} if exists {quoted(bare)}"
 

@@ -34,7 +34,7 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
         name = quoted(wide_name(group))
         columns = ", ".join(f"r.{quoted(c.name)}, r.{quoted(c.name + '__flag')}" for c in group.columns)
         yield (
-            _unreadable(group)
+            _view_that_fails(group)
             if group.broken
             else (
                 f"create view {name} as select {literal(group.campaign)} as campaign, f.test, "
@@ -67,7 +67,7 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
     yield from identified("wide", ("campaign", "source", "stream"))
 
 
-def _unreadable(group: Group) -> str:
+def _view_that_fails(group: Group) -> str:
     """The view of a group with a damaged file: its columns, and an error for whoever reads it. Rows that are missing
     without a word would be worse, and without the view nothing else could be committed, not even the repair."""
 

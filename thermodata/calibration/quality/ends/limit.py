@@ -101,7 +101,7 @@ def no_values(x: Float1D, quantity: str, written: Float1D | None = None) -> Bool
     """The same of a drive or a flow, which may leave where it is and come back within a few samples: a ramp to a code,
     or what is commanded so, is a reading. x: shape (n,), in the quantity's canonical unit; written: the codes as they
     are in it, where x was logged in another."""
-    codes = _with(codes_of(quantity), written)
+    codes = _with_written(codes_of(quantity), written)
     ends = np.array([np.fmin.reduce(x), np.fmax.reduce(x)]) if len(x) else np.zeros(2)
     never = _never_commanded(x, ends) if quantity in _CODES else np.zeros(len(x), dtype=bool)
     if not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():
@@ -126,13 +126,13 @@ def _never_commanded(x: Float1D, ends: Float1D) -> Bool1D:
     return coded & (below | far)
 
 
-def _with(codes: Float1D, written: Float1D | None) -> Float1D:
+def _with_written(codes: Float1D, written: Float1D | None) -> Float1D:
     return codes if written is None or not len(written) else np.union1d(codes, written)
 
 
 def sentinels(x: Float1D, own: RunStats, codes: Float1D = _SENTINELS, written: Float1D | None = None) -> Bool1D:
     """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
-    codes = _with(codes, written)
+    codes = _with_written(codes, written)
     none: Bool1D = np.zeros(len(x), dtype=bool)
     ends = np.array([own.low, own.high])
     if np.isfinite(own.leap) and not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():

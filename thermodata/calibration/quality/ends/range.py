@@ -107,11 +107,11 @@ def plateau_at_extreme(t_s: Float1D, x: Float1D) -> Plateau | None:
     noise = float(np.median(np.abs(np.diff(x)))) / (0.6745 * np.sqrt(2))
     if not 0 < noise * _SPANS < np.ptp(x):
         return None
-    found = [_plateau(t_s, side * x, noise, side) for side in (-1, 1)]
+    found = [_longest_plateau(t_s, side * x, noise, side) for side in (-1, 1)]
     return max((p for p in found if p is not None), key=lambda p: p.stop - p.start, default=None)
 
 
-def _plateau(t_s: Float1D, x: Float1D, noise: float, side: int) -> Plateau | None:
+def _longest_plateau(t_s: Float1D, x: Float1D, noise: float, side: int) -> Plateau | None:
     """The longest one at the highest readings of x."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], (x >= x.max() - BAND * noise).astype(np.int8), [0]))))
     start, stop = max(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True), key=lambda run: run[1] - run[0])

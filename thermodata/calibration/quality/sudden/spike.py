@@ -38,13 +38,13 @@ def spikes(x: Float1D, own: RunStats) -> tuple[Bool1D, bool]:
     if count:
         # air in a draught, a probe at high speed: what comes in all sizes is no spike
         others = _without_far(x, hit, rows, height)
-        beyond = _beyond(hit, rows, height, _TAIL_TIMES * _tail(others, _SPIKE * noise))
+        beyond = _runs_that_stand_out(hit, rows, height, _TAIL_TIMES * _tail(others, _SPIKE * noise))
         if beyond.any() or not many:
             return beyond, int(beyond.sum()) > max(10, _MANY_SPIKES * n)
     return hit, many
 
 
-def _beyond(hit: Bool1D, rows: Int1D, height: Float1D, least: float) -> Bool1D:
+def _runs_that_stand_out(hit: Bool1D, rows: Int1D, height: Float1D, least: float) -> Bool1D:
     """The runs of `hit` that stand out by more than `least` somewhere. rows, height: shape (k,)."""
     top = np.zeros(len(hit))
     top[rows] = height
@@ -64,7 +64,7 @@ def _without_far(x: Float1D, hit: Bool1D, rows: Int1D, height: Float1D) -> Float
         if one > _FAR * reach:
             break
         reach = max(reach, one)
-    return np.where(_beyond(hit, rows, height, _FAR * reach), np.nan, x)
+    return np.where(_runs_that_stand_out(hit, rows, height, _FAR * reach), np.nan, x)
 
 
 def _stand_out(x: Float1D, noise: float) -> tuple[Int1D, Float1D]:

@@ -34,7 +34,7 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
         rows.append(_row("candidate", candidate.model_dump_json(), rank=candidate.rank))
     for i, artefact in enumerate(diagnosis.artefacts, 1):
         rows.append(_row("artefact", artefact.model_dump_json(), artefact.campaign, artefact.test or "", i))
-    _keep(store, model, _OF_A_DIAGNOSIS, rows)
+    _replace_findings(store, model, _OF_A_DIAGNOSIS, rows)
 
 
 def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
@@ -50,14 +50,16 @@ def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
 
 def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
     """Keeps findings of another kind ("portability"): (campaign, test, payload), in place of the earlier ones."""
-    _keep(store, model, [kind], [_row(kind, json.dumps(dict(p)), c, t, i) for i, (c, t, p) in enumerate(rows, 1)])
+    _replace_findings(
+        store, model, [kind], [_row(kind, json.dumps(dict(p)), c, t, i) for i, (c, t, p) in enumerate(rows, 1)]
+    )
 
 
 def keep_answer(store: Store, model: str, question: str, key: str, payload: str) -> None:
     """Keeps what was answered, for as long as the key of what it was made from stays the same. question: such as
     "diagnose"; payload: JSON."""
     kind = f"answer:{question}"
-    _keep(store, model, [kind], [_row(kind, json.dumps({"key": key, "answer": json.loads(payload)}))])
+    _replace_findings(store, model, [kind], [_row(kind, json.dumps({"key": key, "answer": json.loads(payload)}))])
 
 
 def kept_answer(store: Store, model: str, question: str, key: str | None = None) -> str | None:
@@ -76,7 +78,7 @@ def _row(kind: str, payload: str, campaign: str = "", test: str = "", rank: int 
     return {"campaign": campaign, "test": test, "kind": kind, "rank": rank, "payload": payload}
 
 
-def _keep(store: Store, model: str, kinds: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
+def _replace_findings(store: Store, model: str, kinds: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
     """In place of all of these kinds. StoreError where the model is gone."""
     at = utc_now()
     with store.write(views=False) as con:

@@ -63,7 +63,7 @@ def save_fit(
     with store.write() as con:
         check(con)
         old = fetch(con, "select parent, created_at from model where model = ?", [model])
-        _drop(con, model)
+        _delete_fit(con, model)
         row = {
             "model": model,
             "name": result.name,
@@ -87,7 +87,7 @@ def save_fit(
     return model
 
 
-def _drop(con: duckdb.DuckDBPyConnection, model: str) -> None:
+def _delete_fit(con: duckdb.DuckDBPyConnection, model: str) -> None:
     """The rows of a model's last fit; what was found out about it stays, but for what is stale."""
     for table in ("fit", "score_row", "prediction"):
         con.execute(f"delete from {table} where model = ?", [model])

@@ -87,10 +87,10 @@ def all_fitted_again(store: Store, stored: StoredModel) -> Iterator[str]:
     for row in fresh:
         other = find_model(store, row["model"])
         # one that was fitted while a test was away is not of the data as they are now
-        if _chosen(other) == _chosen(stored) and not came_after(store, other):
+        if _model_without_choice(other) == _model_without_choice(stored) and not came_after(store, other):
             yield other.model
 
 
-def _chosen(stored: StoredModel) -> Model:
+def _model_without_choice(stored: StoredModel) -> Model:
     """What makes it the same model: on which tests its effects were chosen is set with a fit to more of them."""
     return stored.spec.model_copy(update={"in_sample_on": None})

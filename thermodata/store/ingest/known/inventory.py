@@ -126,11 +126,11 @@ def _whole_files(rows: list[Row], folder: str) -> dict[str, list[RawStream]]:
 
 def meta_of(row: Row) -> Mapping[str, Any]:
     """What a row of `file` tells of its columns, to be read only: each is asked for in several places."""
-    return _parsed(row["columns"])
+    return _columns_of_json(row["columns"])
 
 
 @lru_cache(maxsize=4096)
-def _parsed(text: str) -> Mapping[str, Any]:
+def _columns_of_json(text: str) -> Mapping[str, Any]:
     return MappingProxyType(json.loads(text))
 
 
@@ -142,10 +142,10 @@ def generation_of(con: duckdb.DuckDBPyConnection) -> int:
 
 def same_rows(one: list[Row], other: list[Row]) -> bool:
     """Whether rows say the same, in whatever order and whenever they were written."""
-    return one == other or _told(one) == _told(other) or comparable(one) == comparable(other)
+    return one == other or _without_moments(one) == _without_moments(other) or comparable(one) == comparable(other)
 
 
-def _told(rows: list[Row]) -> list[Row]:
+def _without_moments(rows: list[Row]) -> list[Row]:
     return [{k: v for k, v in row.items() if k not in _MOMENTS} for row in rows]
 
 

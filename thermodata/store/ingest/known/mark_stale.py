@@ -61,12 +61,12 @@ def mark_stale(
         before = dict(differing)
         for test in then:
             if test in differing or ((test in used or not used) and then[test] is not None):
-                _hold(differing, test, then[test], now.get(test))
+                _compare_with_fitted(differing, test, then[test], now.get(test))
                 if forgotten and test in differing:
                     differing[test]["forgotten"] = True
         if differing == before:
             continue
-        _keep(con, row["model"], campaign, differing, row["stale"] and not before)
+        _replace_differences(con, row["model"], campaign, differing, row["stale"] and not before)
         if not row["stale"]:
             turned.append(row["model"])
     return turned
@@ -81,7 +81,9 @@ def _merged(kept: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     return found
 
 
-def _hold(differing: dict[str, dict[str, Any]], test: str, then: State | None, now: State | None) -> None:
+def _compare_with_fitted(
+    differing: dict[str, dict[str, Any]], test: str, then: State | None, now: State | None
+) -> None:
     """Holds a test against what was fitted, and keeps what differs, if anything does."""
     kept = differing.get(test, {"test": test, "was": then, "what": []})
     was = kept.get("was")
@@ -98,7 +100,7 @@ def _hold(differing: dict[str, dict[str, Any]], test: str, then: State | None, n
         differing.pop(test, None)
 
 
-def _keep(
+def _replace_differences(
     con: duckdb.DuckDBPyConnection, model: str, campaign: str, differing: Mapping[str, Mapping[str, Any]], known: bool
 ) -> None:
     """Keeps what differs in place of what did. known: the model is stale for a reason that nobody kept."""

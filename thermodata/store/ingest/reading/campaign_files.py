@@ -80,7 +80,7 @@ class CampaignFiles:
     def narrow(self, tests: Collection[str]) -> None:
         """Leaves the files of all other tests alone."""
         self._source_files = {key: files for key, files in self._source_files.items() if key[0] in tests}
-        wanted = {path for path, _, _ in self._listed()}
+        wanted = {path for path, _, _ in self._wanted_files()}
         for path in [p for p in self._sizes if p not in wanted]:
             self.done(path)
 
@@ -107,7 +107,7 @@ class CampaignFiles:
 
     def tasks(self) -> Iterator[Task]:
         """Each listed file as it is to be read, but for those that can't be."""
-        for path, source, spec in self._listed():
+        for path, source, spec in self._wanted_files():
             try:
                 reader, declaration = self.reader(spec.reader, source), declared(source, spec)
                 file = self.settle_readable(path, reader, declaration)
@@ -115,7 +115,7 @@ class CampaignFiles:
                 continue  # told where the file is read
             yield Task(raw_key(file.sha256, reader, declaration), self.store, path, file, spec.reader, declaration)
 
-    def _listed(self) -> Iterator[tuple[str, str, SourceSpec]]:
+    def _wanted_files(self) -> Iterator[tuple[str, str, SourceSpec]]:
         """(path, source, what is declared of it) of the files whose present content is wanted."""
         for calibration in self.campaign.calibrations.values():
             if isinstance(calibration, JumpCalibration) and calibration.file in self._sizes:

@@ -194,7 +194,7 @@ class RawIngest:
     def _read_or_former(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
         """What is read of a file, or where that fails what was read of it before, and why."""
         try:
-            return self._read(wanted, reader)
+            return self._read_or_reuse(wanted, reader)
         except StoreError:
             raise
         except (ThermodataError, OSError) as error:
@@ -232,7 +232,7 @@ class RawIngest:
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
         return before
 
-    def _read(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
+    def _read_or_reuse(self, wanted: WantedFile, reader: Reader) -> list[RawStream]:
         path, declaration = wanted.path, wanted.declaration
         file = self.files.settle_readable(path, reader, declaration)
         key = raw_key(file.sha256, reader, declaration)

@@ -43,11 +43,11 @@ class SourceFiles:
         paths = list(paths)
         if all(path in listed for path in paths):
             return sorted(paths, key=listed.__getitem__)
-        return sorted(paths, key=lambda path: (_listed(self.patterns, path), *_in_order(path)))
+        return sorted(paths, key=lambda path: (_number_of_pattern(self.patterns, path), *_in_order(path)))
 
     def claims(self, path: str) -> bool:
         """Whether a path that is no longer there would still belong."""
-        return _listed(self.patterns, path) < len(self.patterns)
+        return _number_of_pattern(self.patterns, path) < len(self.patterns)
 
 
 def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str, ...], bool, bool]:
@@ -58,7 +58,7 @@ def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str,
         return (), False, False
     listed = [declared] if isinstance(declared, str) else list(declared)
     shared = own is None and not any("{test}" in p for p in listed) and not campaign.sources[source].sheet_a_test
-    return tuple(_checked(p, test.id) for p in listed), shared, own is not None
+    return tuple(_pattern_of_test(p, test.id) for p in listed), shared, own is not None
 
 
 def resolve(
@@ -79,7 +79,7 @@ def resolve(
     for pattern in patterns:
         # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
         named = not glob.has_magic(pattern)
-        fitting = _fitting(root, pattern, named)
+        fitting = _paths_of_pattern(root, pattern, named)
         for name in sorted(fitting, key=_in_order) if len(fitting) > 1 else fitting:
             relative = PurePosixPath(Path(name)).as_posix()
             if not is_text(relative):
@@ -99,7 +99,7 @@ def resolve(
     )
 
 
-def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
+def _paths_of_pattern(root: Path, pattern: str, named: bool) -> list[str]:
     """What stands in the folder under a pattern, or under a name, which takes a fifth of the time; and in archives that
     the pattern leads into."""
     if not named:
@@ -112,7 +112,7 @@ def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
 def _refusal(root: Path, name: str, named: bool, folders: dict[str, str]) -> str | None:
     """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
     try:
-        real, status = _real(str(standing(root / name)), folders)
+        real, status = _path_without_links(str(standing(root / name)), folders)
         if real != str(root) and not real.startswith(os.path.join(root, "")):
             return "leads outside the campaign's folder"
         kind = kind_of(status or os.stat(real))
@@ -125,7 +125,7 @@ def _refusal(root: Path, name: str, named: bool, folders: dict[str, str]) -> str
     return "" if kind == "a folder" and not named else f"this is {kind}, not a file"
 
 
-def _real(path: str, folders: dict[str, str]) -> tuple[str, os.stat_result | None]:
+def _path_without_links(path: str, folders: dict[str, str]) -> tuple[str, os.stat_result | None]:
     """(a path without links, what the system says of it where it is none itself). Thousands of files lie in a few
     folders, which are looked through once."""
     folder, name = os.path.split(path)
@@ -144,7 +144,7 @@ def _real(path: str, folders: dict[str, str]) -> tuple[str, os.stat_result | Non
 def file_inside(folder: Path, name: str, where: str) -> Path:
     """One declared file, which must lie inside the campaign's folder (it need not exist)."""
     root = folder.resolve()
-    _checked(name, "", where)
+    _pattern_of_test(name, "", where)
     try:
         real = (root / name).resolve()
     except (OSError, RuntimeError, ValueError) as error:
@@ -176,7 +176,7 @@ def natural(text: str) -> list[tuple[int, int, str]]:
     return [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"(\d+)", text) if part]
 
 
-def _checked(pattern: str, test: str, where: str = "files") -> str:
+def _pattern_of_test(pattern: str, test: str, where: str = "files") -> str:
     _check(pattern, where)
     return pattern.replace("{test}", glob.escape(test))
 
@@ -198,7 +198,7 @@ def _check(pattern: str, where: str) -> None:
         )
 
 
-def _listed(patterns: tuple[str, ...], path: str) -> int:
+def _number_of_pattern(patterns: tuple[str, ...], path: str) -> int:
     """The number of the first pattern that a path fits, from 0; how many there are where none does."""
     names, globs = _told_apart(patterns)
     named = names.get(path, len(patterns))

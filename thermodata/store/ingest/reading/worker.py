@@ -94,13 +94,13 @@ def read(task: Task, tell: Callable[[Samples], None]) -> Done:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            streams: list[RawStream] | Exception | None = _read(task, tell)
+            streams: list[RawStream] | Exception | None = _read_task(task, tell)
         except Exception as error:
             streams = error
     return Done(streams, tuple((str(w.message), w.category, w.filename, w.lineno) for w in caught))
 
 
-def _read(task: Task, tell: Callable[[Samples], None]) -> list[RawStream] | None:
+def _read_task(task: Task, tell: Callable[[Samples], None]) -> list[RawStream] | None:
     try:
         reader: Reader = find_reader(task.reader)
     except UsageError:
@@ -148,10 +148,10 @@ def _work(out: BinaryIO) -> None:
     signal.signal(signal.SIGTERM, _end)
     tasks: SimpleQueue[Task | None] = SimpleQueue()
     sys.path[:] = pickle.load(sys.stdin.buffer)
-    _say(out, Ready())
+    _send(out, Ready())
     threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks), daemon=True).start()
     while (task := tasks.get()) is not None:
-        _say(out, read(task, lambda samples: _say(out, samples)))
+        _send(out, read(task, lambda samples: _send(out, samples)))
 
 
 def _listen(incoming: BinaryIO, tasks: SimpleQueue[Task | None]) -> None:
@@ -168,7 +168,7 @@ def _listen(incoming: BinaryIO, tasks: SimpleQueue[Task | None]) -> None:
         os._exit(1)
 
 
-def _say(out: BinaryIO, what: Any) -> None:
+def _send(out: BinaryIO, what: Any) -> None:
     try:
         data = pickle.dumps(what)
     except Exception:  # an error of a plugin's own that holds what can't be sent

@@ -97,11 +97,13 @@ def unread_signals(campaign: Campaign, source: str, raws: Iterable[RawStream]) -
         try:
             read.add(find_signal(raws, str(name))[1].name)
         except UsageError:  # another file of the test may have it in another unit
-            read |= {s.name for r in raws for s in r.signals if _bare(s.name) == _bare(str(name))}
+            read |= {
+                s.name for r in raws for s in r.signals if _name_without_unit(s.name) == _name_without_unit(str(name))
+            }
     return {s.name for r in raws for s in r.signals} - read
 
 
-def _bare(name: str) -> str:
+def _name_without_unit(name: str) -> str:
     return split_unit(name)[0].casefold()
 
 

@@ -57,7 +57,7 @@ def by_times_of_day(
         if here.near_zero != there.near_zero:
             plan.problems += [_durations(plan, here, there)] if there.name else []
             continue
-        by_ns, doubt = _apart(here, there)
+        by_ns, doubt = _begins_after_ns(here, there)
         moved[here.name] = there.base_ns + there.first_ns + by_ns - here.first_ns
         side = "after" if by_ns >= 0 else "before"
         said = f"'{here.name}' begins {in_words(by_ns)} {side} {there.called} by its times of day, which have no date"
@@ -99,7 +99,7 @@ def _start(plan: TestPlan, base_ns: Mapping[str, int], zone: str | None) -> _Log
     return _Log("", (base + _ahead_ns(own, base // 10**9)) % DAY_NS, 0, last_ns(probes) - first, base, own)
 
 
-def _apart(here: _Log, there: _Log) -> tuple[int, str | None]:
+def _begins_after_ns(here: _Log, there: _Log) -> tuple[int, str | None]:
     """By how much a log begins after another [ns], on the day on which they run together longest, and what leaves that
     open."""
     moments = [there.base_ns // 10**9] if there.base_ns else _WINTER_AND_SUMMER_S

@@ -35,7 +35,9 @@ def lent(
     found = {test: dict(own) for test, own in clocks.items()}
     dated = {(test, name) for test, names in dated_in.items() for name in names}
     for source in {name for own in clocks.values() for name in own}:
-        told = [c for t, own in clocks.items() if (c := own.get(source)) and (t, source) in dated and _told(c)]
+        told = [
+            c for t, own in clocks.items() if (c := own.get(source)) and (t, source) in dated and _is_own_estimate(c)
+        ]
         offsets = [c.offset_ns for c in told]
         if len(offsets) < _FEWEST or max(offsets) - min(offsets) > _ALIKE_NS:
             continue
@@ -54,6 +56,6 @@ def lent(
     return found
 
 
-def _told(clock: Clock) -> bool:
+def _is_own_estimate(clock: Clock) -> bool:
     """Whether it was estimated from its own test."""
     return bool(clock.key) and not clock.suspect

@@ -24,12 +24,12 @@ def choose_passes(plan: TestPlan) -> None:
         zone, clock = source.spec.timezone, source.spec.clock
         if zone is None or not source.raws or clock.offset is not None or clock.align_to is not None:
             continue
-        first = [r for r in source.raws if _says(r, ALL)]
+        first = [r for r in source.raws if _has_note(r, ALL)]
         hour = repeated_hour(zone, min(recorded(r)[0] for r in first)) if first else None
         if hour is not None:
             told = _by_parts(source, first, hour)
             for raw, later in told:
-                _take(plan, source, [raw], hour, later, "the order of its files says")
+                _take_pass(plan, source, [raw], hour, later, "the order of its files says")
             left = [r for r in first if all(r is not raw for raw, _ in told)]
             if left:
                 _choose(plan, source, left, hour)
@@ -50,7 +50,7 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
             f"start: {second} {own} where they are of the second, or start: {first}{or_else}"
         )
         return
-    _take(plan, source, raws, hour, later, by)
+    _take_pass(plan, source, raws, hour, later, by)
 
 
 def _by_offset(hour: RepeatedHour) -> str:
@@ -73,7 +73,7 @@ def _starts(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
     return min(either) if either and all(t >= min(either) + hour.shift_ns for t in others) else None
 
 
-def _take(
+def _take_pass(
     plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour, later: bool, by: str
 ) -> None:
     if later:
@@ -102,7 +102,7 @@ def _by_parts(source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour)
         i, told[i] = more
         known[i] = _in_pass(spans[i], hour, told[i])
     left = [i for i in still if i not in told]
-    if (turn := _turn([spans[i] for i in left], hour)) is not None:
+    if (turn := _first_of_second_pass([spans[i] for i in left], hour)) is not None:
         rest = {i: k >= turn for k, i in enumerate(left)}
         if _in_order(known | {i: _in_pass(spans[i], hour, later) for i, later in rest.items()}):
             told |= rest
@@ -132,7 +132,7 @@ def _in_order(spans: Mapping[int, tuple[int, int]]) -> bool:
     return all(a[1] <= b[0] for a, b in pairwise(spans[i] for i in sorted(spans)))
 
 
-def _turn(spans: Sequence[tuple[int, int]], hour: RepeatedHour) -> int | None:
+def _first_of_second_pass(spans: Sequence[tuple[int, int]], hour: RepeatedHour) -> int | None:
     """The place of the first file of the second pass, where all are of either: there alone a file begins before the end
     of the one before, and in the second pass right behind it."""
     back = [k for k, (a, b) in enumerate(pairwise(spans), 1) if b[0] < a[1]]
@@ -184,7 +184,7 @@ def _by_words(raw: RawStream, hour: RepeatedHour, zone: str) -> tuple[bool, str]
 def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
     """A log that begins with another and ends in the first pass just as much earlier as the hour lasts: its last rows
     may be of the second pass."""
-    if not any(_says(r, ENDS) for r in source.raws):
+    if not any(_has_note(r, ENDS) for r in source.raws):
         return
     begin, end = (f(recorded(r)[i] for r in source.raws) for i, f in enumerate((min, max)))
     hour = repeated_hour(zone, end)
@@ -201,13 +201,13 @@ def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
             )
 
 
-def _says(raw: RawStream, what: str) -> bool:
+def _has_note(raw: RawStream, what: str) -> bool:
     return any(note.startswith(what) for note in raw.notes)
 
 
 def is_known(source: SourcePlan) -> bool:
     """Whether its times hang on no pass, and on no zone that nobody says."""
-    doubtful = any(_says(r, ALL) or any(NO_ZONE in n for n in r.notes) for r in source.raws)
+    doubtful = any(_has_note(r, ALL) or any(NO_ZONE in n for n in r.notes) for r in source.raws)
     return bool(source.raws) and source.is_dated and not doubtful
 
 

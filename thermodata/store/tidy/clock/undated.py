@@ -46,7 +46,7 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
                 "a source, or write the start with its offset: 2026-03-04 08:15+01:00"
             )
         if start is not None:
-            plan.problems += _beside(plan, base_ns, dated, undated)
+            plan.problems += _start_apart_from_dates(plan, base_ns, dated, undated)
     else:
         with_dates = [s for s in plan.reference if s in dated] or dated
         for source in undated:
@@ -70,7 +70,9 @@ def _first_declared(source: SourcePlan) -> int:
     return first_ns(source) + _declared_ns(source)
 
 
-def _beside(plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
+def _start_apart_from_dates(
+    plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], undated: list[SourcePlan]
+) -> list[str]:
     """A start at which nothing that has dates was recorded."""
     if not dated or not undated:
         return []
@@ -187,9 +189,10 @@ def tell_apart(plan: TestPlan, clocks: Mapping[str, Clock]) -> None:
         later = own[0] > max(other[1] for other in others)
         said = f"test '{plan.test.id}': '{name}' runs {in_words(gap_ns)} {'later' if later else 'earlier'} than"
         if not is_relative(source):
+            line = _line_that_moves(name, clocks[name].offset_ns + min(o[0] for o in others) - own[0])
             plan.notes.append(
                 f"{said} the test, and has no sample in it: is it a file of this test, and its clock right? "
-                f"{_moved(name, clocks[name].offset_ns + min(o[0] for o in others) - own[0])} if they began together"
+                f"{line} if they began together"
             )
             continue
         away_ns = round((source.spec.clock.offset or 0.0) * 1e9) - own[0] + min(spans[n][0] for n in dated)
@@ -199,7 +202,7 @@ def tell_apart(plan: TestPlan, clocks: Mapping[str, Clock]) -> None:
         )
 
 
-def _moved(source: str, by_ns: int) -> str:
+def _line_that_moves(source: str, by_ns: int) -> str:
     """The line that moves a log with dates. by_ns: from begin to begin, with what is declared."""
     by = f"{'-' if by_ns < 0 else ''}{in_words(by_ns)}"
     return f"clock: {{offset: {by}}} at the source '{source}', or clocks: {{{source}: {by}}} in this test alone,"

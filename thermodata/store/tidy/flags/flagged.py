@@ -71,10 +71,10 @@ class Flagged:
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(join_while_standing(self._joined(), self.series))
+            for e in concise(join_while_standing(self._joined_events(), self.series))
         ]
 
-    def _joined(self) -> list[QualityEvent]:
+    def _joined_events(self) -> list[QualityEvent]:
         """What was judged, as far as its flags stay; between the measuring phases one event a channel and flag."""
         return join_while_not_measuring(self._trimmed.events(self._judged), self._activity, self._repeats)
 

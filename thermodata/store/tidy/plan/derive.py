@@ -15,7 +15,7 @@ from thermodata.store.tidy.plan.plan import Bound
 
 
 @lru_cache(maxsize=512)
-def _parsed(text: str) -> Any:
+def _parsed_expression(text: str) -> Any:
     from thermodata.calibration.expression.parser import parse
 
     return parse(text, rates=True)
@@ -23,13 +23,13 @@ def _parsed(text: str) -> Any:
 
 def names(text: str) -> frozenset[str]:
     """The channels that an expression uses."""
-    found: frozenset[str] = _parsed(text).names
+    found: frozenset[str] = _parsed_expression(text).names
     return found
 
 
 def rated(text: str) -> frozenset[str]:
     """The channels among them whose rate it takes."""
-    found: frozenset[str] = _parsed(text).rated
+    found: frozenset[str] = _parsed_expression(text).rated
     return found
 
 
@@ -38,7 +38,7 @@ def evaluate(bound: Bound, values: Mapping[str, Array], units: Mapping[str, str]
     target = canonical(bound.channel.quantity)
     own = bound.unit or target
     factor, offset = linear_conversion(own, target)
-    derived: Float1D = _parsed(bound.channel.derive or "").evaluate_in(values, units, own)
+    derived: Float1D = _parsed_expression(bound.channel.derive or "").evaluate_in(values, units, own)
     return derived * factor + offset if (factor, offset) != (1.0, 0.0) else derived
 
 

@@ -240,10 +240,10 @@ def _times(spec: SourceSpec) -> list[int | str]:
     """The columns that a source declares as its times."""
     said = spec.table.time if spec.table is not None else None
     each = said if isinstance(said, list) else [said] if said is not None else []
-    return [c for one in each if one.column is not None for c in _listed(one.column)]
+    return [c for one in each if one.column is not None for c in _as_list(one.column)]
 
 
-def _listed(columns: int | str | list[int | str]) -> list[int | str]:
+def _as_list(columns: int | str | list[int | str]) -> list[int | str]:
     return columns if isinstance(columns, list) else [columns]
 
 

@@ -21,7 +21,7 @@ RATED = "position"  # the one quantity that has a rate
 def check_derived(campaign: Campaign) -> None:
     """UsageError at the first `derive` that is no expression, names no channel of the campaign, or derives from
     itself. A channel that is only absent in a test is there: what derives from it is absent then too."""
-    for prefix, channels in _told(campaign):
+    for prefix, channels in _places_of_channels(campaign):
         for name, channel in channels.items():
             if channel.derive is not None:
                 _check_derive(campaign, channels, name, f"{prefix}channels.{name}.derive")
@@ -35,7 +35,7 @@ def check_measuring(campaign: Campaign) -> None:
             _check_rule(campaign, effective(campaign, test), test, f"tests[{i}].measuring")
 
 
-def _told(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
+def _places_of_channels(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
     """(place of what they are declared in, channels): of the campaign, and of each test that derives otherwise."""
     yield "", campaign.channels
     for i, test in enumerate(campaign.tests):
@@ -117,15 +117,15 @@ def _check_rule(campaign: Campaign, channels: Mapping[str, Channel], test: Test,
     if spec.when is not None:
         place = where if isinstance(test.measuring, str) else f"{where}.when"
         for name in sorted(_names_of_rule(spec.when, place)):
-            _known(name, campaign, place)
+            _require_channel(name, campaign, place)
         _compares(spec.when, channels, place)
     place = f"{where}.in_range"
     for name in [spec.in_range] if isinstance(spec.in_range, str) else spec.in_range or {}:
         if name != "in_range" or name in campaign.channels:
-            _known(name, campaign, place)
+            _require_channel(name, campaign, place)
 
 
-def _known(name: str, campaign: Campaign, where: str) -> None:
+def _require_channel(name: str, campaign: Campaign, where: str) -> None:
     if name not in campaign.channels:
         raise unknown_channel(name, list(campaign.channels), where=where)
 

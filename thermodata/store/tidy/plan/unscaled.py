@@ -48,10 +48,10 @@ def tell_unscaled(store: Path, plan: TestPlan) -> None:
             if not values.size or _are_in(values, open_scales):
                 continue
             whole = bool((values == np.round(values)).all()) and np.unique(values).size > _FEW
-            (plan.problems if whole else plan.notes).append(_told(bound.name, raw, signal, open_scales, whole))
+            (plan.problems if whole else plan.notes).append(_note_of_scale(bound.name, raw, signal, open_scales, whole))
 
 
-def _told(name: str, raw: RawStream, signal: Signal, scales: Sequence[Stated], whole: bool) -> str:
+def _note_of_scale(name: str, raw: RawStream, signal: Signal, scales: Sequence[Stated], whole: bool) -> str:
     way = line_that_applies(scales, split_unit(signal.name)[0], signal.unit)
     what = "its whole numbers are stored as they stand" if whole else "its values are taken to have it"
     return (

@@ -95,8 +95,8 @@ def _as_in(raw: RawStream, signal: Signal) -> Signal | None:
     same = next((s for s in raw.signals if s.name == signal.name), None)
     if same is not None:
         return same
-    bare = _bare(signal)
-    alike = [s for s in raw.signals if _bare(s) == bare]
+    bare = _name_without_unit(signal)
+    alike = [s for s in raw.signals if _name_without_unit(s) == bare]
     return alike[0] if len(alike) == 1 else None
 
 
@@ -135,7 +135,7 @@ def _each_once(signals: list[Signal], raws: Iterable[RawStream], wanted: str) ->
     """The signals, of those that differ in their unit only the first, and the one that is wanted by its whole name."""
     alike: dict[tuple[str, str], list[Signal]] = {}
     for signal in signals:
-        alike.setdefault((signal.stream, _bare(signal)), []).append(signal)
+        alike.setdefault((signal.stream, _name_without_unit(signal)), []).append(signal)
     later = {
         (s.stream, s.name)
         for (stream, _), same in alike.items()
@@ -151,7 +151,7 @@ def _beside_each_other(same: list[Signal], raws: list[RawStream]) -> bool:
     return any(sum(s.name in names for s in r.signals) > 1 for r in raws)
 
 
-def _bare(signal: Signal) -> str:
+def _name_without_unit(signal: Signal) -> str:
     """A name without its unit; whole where the brackets hold none."""
     name, unit = split_unit(signal.name)
     return name if unit is not None and not unit.isdigit() and is_unit(unit) else signal.name

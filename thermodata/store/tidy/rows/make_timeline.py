@@ -54,7 +54,7 @@ def make_timeline(
         line.notes += twice.notes()
         order = find_order(line.file_times, n, resets_allowed=resets_allowed, sound=twice.left())
     if order.keep < n:
-        line.losses = (_lost(line, order, n, resets_allowed, shared),)
+        line.losses = (_loss_of_rows(line, order, n, resets_allowed, shared),)
     line.notes += order.notes
     line.order, line.rows = order, order.keep
     return line
@@ -82,7 +82,7 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
     return keys
 
 
-def _lost(line: Timeline, order: Order, n: int, resets_allowed: bool, shared: bool) -> Loss:
+def _loss_of_rows(line: Timeline, order: Order, n: int, resets_allowed: bool, shared: bool) -> Loss:
     keep, steps = order.keep, Steps()
     steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
     at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])

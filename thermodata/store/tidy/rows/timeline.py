@@ -116,10 +116,10 @@ class Timeline:
         """Raw columns (or the flags that the reader gave), rows start to stop; those that no file has are left out."""
         low, high, order = self._window(start, stop)
         parts: dict[str, list[Array | int]] = {s: [] for s in signals}
-        for raw, a, b in self._within(low, high):
+        for raw, a, b in self._parts_of_rows(low, high):
             names = {s: self._name(raw, s, flags) for s in signals}
             there = [n for n in names.values() if n is not None]
-            read = dict(zip(there, self._read(raw, there, a, b), strict=True)) if there else {}
+            read = dict(zip(there, self._read_rows(raw, there, a, b), strict=True)) if there else {}
             for signal, name in names.items():
                 own = self.part(raw, signal)
                 parts[signal].append(b - a if name is None else read[name] if flags else own.read(read[name]))
@@ -135,7 +135,7 @@ class Timeline:
         """(raw stream, its row) behind a row."""
         low, _, order = self._window(row, row + 1)
         at = row if order is None else low + int(order[row - low])
-        raw, file_row, _ = next(iter(self._within(at, at + 1)))
+        raw, file_row, _ = next(iter(self._parts_of_rows(at, at + 1)))
         return raw, raw.rows - 1 - file_row if raw.newest_first else file_row
 
     def flagged(self, signals: Iterable[str]) -> bool:
@@ -154,14 +154,14 @@ class Timeline:
             return f"{column}__flag" if name in raw.flagged else None
         return column
 
-    def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
+    def _read_rows(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
         assert self.store is not None
         file = self._files.get(self.store / raw.path)
         if raw.newest_first:
             return [a[::-1] for a in file.read(columns, raw.rows - stop, raw.rows - start)]
         return file.read(columns, start, stop)
 
-    def _within(self, start: int, stop: int) -> Iterable[tuple[RawStream, int, int]]:
+    def _parts_of_rows(self, start: int, stop: int) -> Iterable[tuple[RawStream, int, int]]:
         """(raw, its rows a to b) that make up rows start to stop in file order; of a file that stands newest first
         they are counted from its end."""
         at = 0
@@ -175,8 +175,8 @@ class Timeline:
         """Times in file order, corrected and with what resets add."""
         shifts = {id(raw): shift for raw, shift in self.raws}
         parts = [
-            self._read(raw, ["t_ns"], a, b)[0].astype(np.int64, copy=False) + np.int64(shifts[id(raw)])
-            for raw, a, b in self._within(start, stop)
+            self._read_rows(raw, ["t_ns"], a, b)[0].astype(np.int64, copy=False) + np.int64(shifts[id(raw)])
+            for raw, a, b in self._parts_of_rows(start, stop)
         ]
         if not parts:
             return np.empty(0, np.int64)

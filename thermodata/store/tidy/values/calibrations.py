@@ -124,7 +124,7 @@ def jump_data(store: Path, campaign: Campaign, spec: JumpCalibration, raws: list
         or "V"
     )
     unit = "V" if converts(written, "V") else written
-    probe = _scaled(store, line, raw, signal.name, written, unit)
+    probe = _values_in_unit(store, line, raw, signal.name, written, unit)
     others: dict[str, Array] = {}
     for channel in probes_across(campaign, spec):
         try:
@@ -133,7 +133,7 @@ def jump_data(store: Path, campaign: Campaign, spec: JumpCalibration, raws: list
             continue
         other_unit = channel.unit or other_unit or unit
         if other.name != signal.name and other.name not in others and converts(other_unit, unit):
-            others[other.name] = _scaled(store, line, raw, other.name, other_unit, unit)
+            others[other.name] = _values_in_unit(store, line, raw, other.name, other_unit, unit)
     return JumpData(line, signal.name, probe, others, unit)
 
 
@@ -150,7 +150,7 @@ def probes_across(campaign: Campaign, spec: JumpCalibration) -> list[Channel]:
     ]
 
 
-def _scaled(store: Path, line: Timeline, raw: RawStream, name: str, unit: str, target: str) -> Array:
+def _values_in_unit(store: Path, line: Timeline, raw: RawStream, name: str, unit: str, target: str) -> Array:
     from thermodata.calibration.scaling import apply_scaling
 
     signal = next(s for s in raw.signals if s.name == name)

@@ -66,7 +66,7 @@ def rate_on_rows(series: Series, bound: Bound, pace: Pace, start: int, stop: int
     cut."""
     if start >= stop:
         return np.empty(0), np.empty(0, np.uint16)
-    low, t_ns, values, flags, sample, other = _around(series, bound, pace, start, stop)
+    low, t_ns, values, flags, sample, other = _stretches_near(series, bound, pace, start, stop)
     both = np.where(other == NONE, flags, flags | flags[sample] | flags[other])
     found = rates(t_ns, values, sample, other)
     return found[start - low : stop - low], both[start - low : stop - low]
@@ -76,7 +76,7 @@ def rows_of_rate(series: Series, bound: Bound, pace: Pace, row: int) -> list[int
     """The rows between which a rate was taken, in their order; the row itself where it has none, or where that can't be
     told."""
     try:
-        low, *_, sample, other = _around(series, bound, pace, row, row + 1)
+        low, *_, sample, other = _stretches_near(series, bound, pace, row, row + 1)
     except ThermodataError:  # a calibration that is not at hand
         return [row]
     here = row - low
@@ -84,7 +84,7 @@ def rows_of_rate(series: Series, bound: Bound, pace: Pace, row: int) -> list[int
     return sorted(found)
 
 
-def _around(
+def _stretches_near(
     series: Series, bound: Bound, pace: Pace, start: int, stop: int
 ) -> tuple[int, Int1D, Float1D, Array, Int1D, Int1D]:
     """(first row, times, values, flags, then as `stretches`) of rows start to stop and all that is near them."""

@@ -174,19 +174,19 @@ class TestSeries:
         if line.rows <= _SHORT:
             if name not in self._sampled:
                 self._sampled[name] = (line.t_ns, *self.values(bound, 0, line.rows))
-            return self._at(bound, t_ns, *self._sampled[name], (True, True))
+            return self._values_at(bound, t_ns, *self._sampled[name], (True, True))
         start = max(0, line.find(int(t_ns[0])) - 1)
         stop = min(line.rows, line.find(int(t_ns[-1]) + 1) + 1)
         if stop - start > _SHORT and len(t_ns) > 1:
             half = len(t_ns) // 2
             (a, f), (b, g) = self.sampled(name, t_ns[:half]), self.sampled(name, t_ns[half:])
             return np.concatenate([a, b]), np.concatenate([f, g])
-        return self._at(
+        return self._values_at(
             bound, t_ns, line.times(start, stop), *self.values(bound, start, stop), (start == 0, stop == line.rows)
         )
 
     @staticmethod
-    def _at(
+    def _values_at(
         bound: Bound, t_ns: Int1D, t: Int1D, values: Array, flags: Array, ends: tuple[bool, bool]
     ) -> tuple[Array, Array]:
         """ends: whether t begins and ends with the stream. What lies beside t lies beside the stream then."""

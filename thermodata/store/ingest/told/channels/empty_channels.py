@@ -22,7 +22,7 @@ def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
                 having.setdefault((source, channel), []).append(name)
     return _nothing_derived(campaign, tests, {channel for _, channel in having}) + [
         loss_row(
-            f"channel '{channel}' has no value in the whole of {name}, and has in {_some(having[source, channel])}: "
+            f"channel '{channel}' has no value in the whole of {name}, and has in {_first_3(having[source, channel])}: "
             f"were cells shifted there? If it was not logged, say so: missing_in: [{name}]",
             test=name,
             source=source,
@@ -44,7 +44,7 @@ def nothing_brought(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses
             loss_row(f"no sample of {of} is in the store: no channel is declared; try: answer the '# ?' below channels")
         ]
     names = list(campaign.channels)
-    return [loss_row(f"no sample of {of} is in the store: none of the channels has a value in any: {_some(names)}")]
+    return [loss_row(f"no sample of {of} is in the store: none of the channels has a value in any: {_first_3(names)}")]
 
 
 def _nothing_derived(campaign: Campaign, tests: Mapping[str, TestNote], having: Collection[str]) -> Losses:
@@ -61,5 +61,5 @@ def _nothing_derived(campaign: Campaign, tests: Mapping[str, TestNote], having: 
     ]
 
 
-def _some(tests: list[str]) -> str:
+def _first_3(tests: list[str]) -> str:
     return with_count(tests, 3)

@@ -40,7 +40,7 @@ def tell_jumps_inside(
     low, high = window if window is not None else (-math.inf, math.inf)
     found = [
         m
-        for m in _moves(plan, begin_ns, clocks, calibrations)
+        for m in _moves_by_file(plan, begin_ns, clocks, calibrations)
         if m.to_s > low + _NEARLY_S and m.from_s < high - _NEARLY_S
     ]
     if not found:
@@ -64,7 +64,7 @@ def tell_jumps_inside(
         plan.problems.append(told)
 
 
-def _moves(
+def _moves_by_file(
     plan: TestPlan, begin_ns: int, clocks: Mapping[str, Clock], calibrations: Mapping[str, CalibrationResult]
 ) -> list[_Moves]:
     found = []

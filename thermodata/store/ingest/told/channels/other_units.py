@@ -45,7 +45,7 @@ def other_units(tests: Sequence[Levels]) -> Losses:
             shift = median - float(np.median(usual)) if usual and median not in usual else 0.0
             if abs(abs(shift) - ZERO_K) < APART_K:
                 shifted.setdefault(test, {})[name] = shift
-    losses = [loss_row(_said(test, shifts), test=test) for test, shifts in shifted.items()]
+    losses = [loss_row(_shift_sentence(test, shifts), test=test) for test, shifts in shifted.items()]
     return losses + [loss_row(_in_fahrenheit(test, names), test=test) for test, names in _warmer_throughout(tests)]
 
 
@@ -76,7 +76,7 @@ def _in_fahrenheit(test: str, names: Sequence[str]) -> str:
     )
 
 
-def _said(test: str, shifts: dict[str, float]) -> str:
+def _shift_sentence(test: str, shifts: dict[str, float]) -> str:
     size = float(np.median(list(shifts.values())))
     unit = "K" if size > 0 else "degC"
     shown = with_count(shifts, 6)

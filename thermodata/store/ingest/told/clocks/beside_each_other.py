@@ -41,7 +41,7 @@ class OddClock:
     def __str__(self) -> str:
         late, early = (_line({source: self.in_place(source)}) for source in (self.late, self.early))
         return (
-            f"{self._seen(self.tests)}: was a clock set wrongly? "
+            f"{self._shift(self.tests)}: was a clock set wrongly? "
             f"try at {_these(self.tests)} {late} or {early}, or at "
             "the source clock: {align_to: ..., by: [...]}, which estimates the offset of each test from what both "
             "logged"
@@ -55,7 +55,7 @@ class OddClock:
     @property
     def seen(self) -> str:
         """What was seen, without what to try."""
-        return self._seen(self.tests)
+        return self._shift(self.tests)
 
     def beside(self, declared: Declared) -> list[str]:
         """A sentence for the tests in which no clock of the two is declared, and one for each word of the others."""
@@ -75,7 +75,7 @@ class OddClock:
         moved_s = declared.get(self.late, 0.0) - declared.get(self.early, 0.0)
         if abs(moved_s - self.shift_s) < max(LEAST_S, BOTH * self.shift_s):
             return (
-                f"{self._seen(tests)}. That is what {line} at {_these(tests)} moved: as logged, both ends agree here "
+                f"{self._shift(tests)}. That is what {line} at {_these(tests)} moved: as logged, both ends agree here "
                 "too, so the line and the ends of the logs contradict each other. Keep it where samples came late "
                 "within a log whose clock was right (a buffer), as what they heat or move says; take it out where a "
                 "clock was meant"
@@ -83,11 +83,11 @@ class OddClock:
         here = replace(self, tests=tests, added={t: {**self.added.get(t, {}), **declared} for t in tests})
         tries = [_line({**declared, source: here.in_place(source)}) for source in (self.late, self.early)]
         return (
-            f"{self._seen(tests)}, though {line} is declared at {_these(tests)}: was it not enough, or the other way? "
+            f"{self._shift(tests)}, though {line} is declared at {_these(tests)}: was it not enough, or the other way? "
             f"try in its place {' or '.join(tries)}"
         )
 
-    def _seen(self, tests: tuple[str, ...]) -> str:
+    def _shift(self, tests: tuple[str, ...]) -> str:
         names = listed([f"'{t}'" for t in tests])
         return (
             f"test{'' if len(tests) == 1 else 's'} {names}: source '{self.late}' begins and ends "
@@ -108,15 +108,17 @@ def odd_clocks(rows: Rows) -> list[OddClock]:
     """Each as a sentence by `str`. rows: test -> its rows of the table `source`."""
     found = []
     for one, other, apart in pairs(rows):
-        if len(apart) > OTHERS and (odd := _odd(np.array(list(apart.values())))) is not None:
+        if len(apart) > OTHERS and (odd := _tests_apart(np.array(list(apart.values())))) is not None:
             places, shift_s = odd
             late, early = (one, other) if shift_s > 0 else (other, one)
             names = tuple(list(apart)[i] for i in places)
-            found.append(OddClock(names, late, early, abs(shift_s), len(apart) - len(names), _added(rows, names)))
+            found.append(
+                OddClock(names, late, early, abs(shift_s), len(apart) - len(names), _declared_offsets_s(rows, names))
+            )
     return found
 
 
-def _added(rows: Rows, tests: Collection[str]) -> dict[str, dict[str, float]]:
+def _declared_offsets_s(rows: Rows, tests: Collection[str]) -> dict[str, dict[str, float]]:
     return {t: {r["source"]: r.get("offset_ns", 0) / 1e9 for r in rows[t]} for t in tests}
 
 
@@ -145,7 +147,7 @@ def together(rows: Rows, declared: Mapping[str, Collection[str]] | None = None) 
     return {test: frozenset(sources) for test, sources in found.items() if sources}
 
 
-def _odd(apart: Float2D) -> tuple[list[int], float] | None:
+def _tests_apart(apart: Float2D) -> tuple[list[int], float] | None:
     """(which tests, by how much [s]). apart: how much later one log begins and ends than the other, shape (tests, 2).
 
     The tests are parted where their ends lie furthest apart; the larger part is right, of two alike the first one.

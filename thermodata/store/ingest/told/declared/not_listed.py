@@ -32,7 +32,7 @@ def not_listed(
     of_jumps = {c.file for c in campaign.calibrations.values() if isinstance(c, JumpCalibration)}
     known = {t.id.lower() for t in campaign.tests}
     tests: dict[str, list[str]] = {}
-    for file, test in _fitting(folder, campaign):
+    for file, test in _files_by_test(folder, campaign):
         if file not in of_jumps and file not in listed and test.lower() not in known:
             tests.setdefault(test, []).append(file)
     meant = taken_out() if tests else ()
@@ -50,7 +50,7 @@ def not_listed(
     ]
 
 
-def _fitting(folder: Path, campaign: Campaign) -> Iterator[tuple[str, str]]:
+def _files_by_test(folder: Path, campaign: Campaign) -> Iterator[tuple[str, str]]:
     """(source path, test) of the files that fit a pattern with {test}; where several do, that which says most."""
     patterns = [
         p

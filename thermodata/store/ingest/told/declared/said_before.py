@@ -31,10 +31,10 @@ def said_before(before: Mapping[str, Any] | None, spec: str, path: Path) -> list
 def _changes(before: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     for key in dict.fromkeys([*before, *now]):
         was, given = _by_name(before.get(key)), _by_name(now.get(key))
-        if _alike(was, given):
+        if _says_the_same(was, given):
             continue
         if not isinstance(was, Mapping) or not isinstance(given, Mapping):
-            yield _told(key, was, given)
+            yield _change_in_words(key, was, given)
             continue
         for name in dict.fromkeys([*was, *given]):
             yield from _of_one(f"{key} {name}", was.get(name, _ABSENT), given.get(name, _ABSENT))
@@ -48,17 +48,17 @@ def _of_one(name: str, was: Any, now: Any) -> Iterator[str]:
         if now is not _ABSENT or not name.startswith("tests "):  # which `taken_out` tells
             yield f"{name} is {'gone' if now is _ABSENT else 'new'}"
     elif isinstance(was, Mapping) and isinstance(now, Mapping):
-        changed = [k for k in dict.fromkeys([*was, *now]) if not _alike(was.get(k), now.get(k))]
+        changed = [k for k in dict.fromkeys([*was, *now]) if not _says_the_same(was.get(k), now.get(k))]
         new = [k for k in changed if _short(was.get(k)) == "" and _short(now.get(k)) != ""]
-        said = [_told(k, was.get(k), now.get(k)) for k in changed if k not in new]
+        said = [_change_in_words(k, was.get(k), now.get(k)) for k in changed if k not in new]
         if new:
             said.append("new: " + ", ".join(f"{k} {_short(now[k]) or ''}".rstrip() for k in new))
         yield f"{name}: " + " and ".join(said)
     else:
-        yield _told(name, was, now)
+        yield _change_in_words(name, was, now)
 
 
-def _told(name: str, was: Any, now: Any) -> str:
+def _change_in_words(name: str, was: Any, now: Any) -> str:
     """'role verification, it was calibration'; what is long is named alone."""
     shown, earlier = (_short(value) for value in (now, was))
     if shown is None or earlier is None:
@@ -74,7 +74,7 @@ def _short(value: Any) -> str | None:
     return text if len(text) <= _SHORT else None
 
 
-def _alike(was: Any, now: Any) -> bool:
+def _says_the_same(was: Any, now: Any) -> bool:
     """Whether both say the same; a word that came with a later version of this program, and says nothing, too."""
     return was == now or (was in _NOTHING and now in _NOTHING)
 

@@ -216,7 +216,7 @@ def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str,
     found: dict[str, Verdict] = {}
     for levels, _ in tests:
         part = foreign_part(levels)
-        foreign = None if part is None else (_finite(part[0]), _finite(part[1]), part[2])
+        foreign = None if part is None else (_finite_or_none(part[0]), _finite_or_none(part[1]), part[2])
         still = tuple(sorted(channel for test, channel in dead if test == levels.test))
         verdict = Verdict(
             offsets.get(levels.test, {}),
@@ -231,5 +231,5 @@ def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str,
     return found
 
 
-def _finite(x: float) -> float | None:
+def _finite_or_none(x: float) -> float | None:
     return x if np.isfinite(x) else None

@@ -32,7 +32,7 @@ class Releases:
             return seen
         for name, column in columns.items():
             x = column.values
-            if not _stands(column, x[own - stop :]):
+            if not _is_held_value(column, x[own - stop :]):
                 continue
             value = self._release(column.bound, float(x[-1]), stop)
             if value is not None:
@@ -56,7 +56,7 @@ class Releases:
         return known[1]
 
 
-def _stands(column: Column, values: Array) -> bool:
+def _is_held_value(column: Column, values: Array) -> bool:
     """Whether measured values are all the same, and more than one."""
     analog = values.dtype.kind == "f" and column.bound.channel.quantity in ANALOG
     return analog and len(values) > 1 and values[0] == values[-1] and bool((values == values[0]).all())

@@ -106,9 +106,9 @@ class Joined:
                 or (stop < len(t_ns) and event.from_ns > last)
             ):
                 continue
-            self._keep(key, event)
+            self._keep_event(key, event)
 
-    def _keep(self, key: tuple[str | None, str], event: QualityEvent) -> None:
+    def _keep_event(self, key: tuple[str | None, str], event: QualityEvent) -> None:
         self._count[key] = self._count.get(key, 0) + 1
         if self._count[key] <= MOST_EVENTS:
             self._open[key] = len(self.events)

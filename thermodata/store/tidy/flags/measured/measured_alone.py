@@ -40,7 +40,7 @@ def cleared(
         alone, _ = flag_stream(t_ns[mask], {n: _part(c, mask) for n, c in columns.items()})
         for name in names:
             doubted = _accused(columns[name], flags[name])[mask] & DOUBTED & ~_borne_out(alone[name])
-            doubted[_stands(columns[name].values, mask)[mask]] = 0
+            doubted[_same_through_stretches(columns[name].values, mask)[mask]] = 0
             doubted[_far_off(columns[name].values[mask], (flags[name][mask] & Flag.SATURATED) != 0)] = 0
             found[name] = flags[name].copy()
             found[name][mask] &= ~doubted
@@ -52,7 +52,7 @@ def _borne_out(flags: Array) -> Array:
     return np.asarray(flags | again)
 
 
-def _stands(values: Array, mask: Bool1D) -> Bool1D:
+def _same_through_stretches(values: Array, mask: Bool1D) -> Bool1D:
     """Where a value stays the same through STANDS measured stretches and more, shape (n,)."""
     run = np.cumsum(np.concatenate([[True], values[1:] != values[:-1]])) - 1
     stretch = np.cumsum(mask & ~np.concatenate([[False], mask[:-1]]))

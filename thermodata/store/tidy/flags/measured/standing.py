@@ -31,7 +31,7 @@ def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> l
     ]
     if not held:
         return list(events)
-    while_standing = {id(e) for e in held if _stands(e, series)}
+    while_standing = {id(e) for e in held if _machine_stands(e, series)}
     kept = [e for e in events if id(e) not in while_standing]
     of_each: dict[tuple[str | None, str], list[QualityEvent]] = {}
     for event in held:
@@ -43,7 +43,7 @@ def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> l
     return sorted(kept, key=lambda e: (e.from_ns, e.channel or ""))
 
 
-def _stands(event: QualityEvent, series: TestSeries) -> bool:
+def _machine_stands(event: QualityEvent, series: TestSeries) -> bool:
     """Whether all speeds of rotation that the test logs are zero during an event; False where it logs none."""
     t_ns = np.linspace(event.from_ns, event.to_ns, _POINTS).astype(np.int64)
     speeds: list[Array] = []

@@ -46,11 +46,11 @@ class Trimmed:
 
     def _trimmed(self, event: QualityEvent) -> QualityEvent | None:
         of = self._of.get((event.channel or "", event.flag))
-        lost = _joined(of.lost) if of else _NONE
+        lost = _concatenated(of.lost) if of else _NONE
         gone = int(np.searchsorted(lost, event.to_ns, "right") - np.searchsorted(lost, event.from_ns))
         if of is None or not gone:
             return event
-        firsts, lasts = _joined(of.firsts), _joined(of.lasts)
+        firsts, lasts = _concatenated(of.firsts), _concatenated(of.lasts)
         first, last = int(np.searchsorted(lasts, event.from_ns)), int(np.searchsorted(firsts, event.to_ns, "right")) - 1
         if gone >= event.n or first > last:
             return None
@@ -58,7 +58,7 @@ class Trimmed:
         return replace(event, from_ns=begins, to_ns=ends, n=event.n - gone)
 
 
-def _joined(parts: list[Int1D]) -> Int1D:
+def _concatenated(parts: list[Int1D]) -> Int1D:
     """The parts as one, which they are from then on: an event asks for them each."""
     if len(parts) > 1:
         parts[:] = [np.concatenate(parts)]
