@@ -64,7 +64,7 @@ def number_rows(data: bytes, line: int, delimiter: str, decimal: str, dtypes: Se
     whole &= ~np.isin(rows.line, nul)
     bad = rows.bad
     if not whole.all() or nul.size:
-        bad = _with(rows.bad, sorted({*rows.line[~whole].tolist(), *nul.tolist()}), data, line)
+        bad = _with_lines(rows.bad, sorted({*rows.line[~whole].tolist(), *nul.tolist()}), data, line)
     which = everywhere(whole)
     values = [c.values[which] for c in columns]
     for k in bits:
@@ -78,7 +78,7 @@ def everywhere(mask: Bool1D) -> Bool1D | slice:
     return slice(None) if mask.all() else mask
 
 
-def _with(bad: Sequence[BadLine], more: Sequence[int], data: bytes, line: int) -> tuple[BadLine, ...]:
+def _with_lines(bad: Sequence[BadLine], more: Sequence[int], data: bytes, line: int) -> tuple[BadLine, ...]:
     """The bad lines, in order, and others of the same text."""
     lines, known = data.split(b"\n"), {each.line for each in bad}
     added = []

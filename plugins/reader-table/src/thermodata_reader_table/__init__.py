@@ -76,15 +76,15 @@ class _Beginning(Reader):
         self._whole, self._small, self._folder = whole, small, folder
 
     def describe(self, path: Path, source: Source) -> Recording:
-        return super().describe(self._of(path), source)
+        return super().describe(self._beginning_of(path), source)
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
-        return super().blocks(self._of(path), source)
+        return super().blocks(self._beginning_of(path), source)
 
     def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
-        return super().locate(self._of(path), source, stream, row)
+        return super().locate(self._beginning_of(path), source, stream, row)
 
-    def _of(self, path: Path) -> Path:
+    def _beginning_of(self, path: Path) -> Path:
         return self._small if path == self._whole else path
 
 

@@ -49,7 +49,7 @@ def claims(lines: Sequence[str]) -> str | None:
     full = [text for line in lines if (text := _object_of(line))][:_LOOKED_AT]
     if not full or full[0][0] not in "{[":
         return None
-    found = [_read(text) for text in full]
+    found = [_reports_of(text) for text in full]
     timed = sum(1 for each in found if each and each[0].time)
     several = len(full) >= _FEWEST or len({r.time for each in found if each for r in each}) >= _FEWEST
     return "lines of JSON, each an object with a time" if several and timed >= _NEARLY_ALL * len(full) else None
@@ -65,7 +65,7 @@ def _object_of(line: str) -> str:
     return "" if text in ("[", "]") else text
 
 
-def _read(text: str) -> list[Report] | None:
+def _reports_of(text: str) -> list[Report] | None:
     """What an object reports, or an array of such; None where it is none."""
     try:
         message = loads(text)
@@ -109,10 +109,12 @@ def _key(report: Report, labels: Sequence[int]) -> str:
     return "/".join((*told, report.name) if report.name else told) or "value"
 
 
-def _look(path: Path, source: Source) -> _Look:
+def _look_at(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
     lines = [text for line in (*first.head, *first.rest) if (text := _object_of(line))]
-    head, rest = ([found for line in part if (found := _read(_object_of(line)))] for part in (first.head, first.rest))
+    head, rest = (
+        [found for line in part if (found := _reports_of(_object_of(line)))] for part in (first.head, first.rest)
+    )
     messages = [*head, *rest]
     every = [report for found in messages for report in found if report.time]
     said = (source.table or {}).get("time")
@@ -128,7 +130,7 @@ def _look(path: Path, source: Source) -> _Look:
     of = senders(messages, source, form)
     head, messages = [of.named(found) for found in head], [of.named(found) for found in messages]
     every = [report for found in messages for report in found if report.time]
-    labels = _telling(every)
+    labels = _differing_labels(every)
     units = dict[str, str]()
     for report in every:
         if report.unit:
@@ -157,7 +159,7 @@ def _heard(messages: Iterable[Sequence[Report]], labels: Sequence[int]) -> Itera
     return (Event(r.time, _key(r, labels), _value(r), 0, "") for found in messages for r in found if r.time)
 
 
-def _telling(every: Iterable[Report]) -> tuple[int, ...]:
+def _differing_labels(every: Iterable[Report]) -> tuple[int, ...]:
     """The places of labels that differ between reports: what all have in common names nothing."""
     seen: dict[int, set[str]] = {}
     for report in every:
@@ -168,7 +170,7 @@ def _telling(every: Iterable[Report]) -> tuple[int, ...]:
 
 def _times_of(lines: Sequence[str]) -> Times | None:
     """What the key of the time of the first object says of its zone."""
-    message: Any = loads(lines[0]) if _read(lines[0]) else None
+    message: Any = loads(lines[0]) if _reports_of(lines[0]) else None
     return shape_of(tuple(message)).times if isinstance(message, dict) else None
 
 
@@ -185,7 +187,7 @@ def _zoned(look: _Look, source: Source) -> tuple[Source, list[str]]:
 
 def describe(path: Path, source: Source) -> Recording:
     """Names and the first time of a log, by samples of it."""
-    look = _look(path, source)
+    look = _look_at(path, source)
     zoned, said = _zoned(look, source)
     found = events.recording(look.plan, zoned, notes=(*look.notes, *said))
     signals = (
@@ -216,7 +218,7 @@ class _Complaints:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of values, and lines that do not read."""
-    look, losses = _look(path, source), _Complaints()
+    look, losses = _look_at(path, source), _Complaints()
     zoned, _ = _zoned(look, source)
 
     def complain(event: Event, reason: str) -> Iterator[Loss]:
@@ -245,7 +247,7 @@ def _events_of_file(path: Path, look: _Look) -> Iterator[Event | Loss]:
 
 def _events(text: str, number: int, part: str, look: _Look) -> Iterator[Event | Loss]:
     """What a line reports. One that ends with its bracket is whole, also without a line end."""
-    found = _read(text)
+    found = _reports_of(text)
     if found is None or not any(report.time for report in found):
         wanted = "an object of JSON" if found is None else "a time and a value"
         yield Loss(f"{part} {number}", reason=f"expected {wanted}, got '{text[:80]}'")
@@ -269,5 +271,5 @@ def _events(text: str, number: int, part: str, look: _Look) -> Iterator[Event | 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """The lines of a row."""
-    told = line_of if _look(path, source).plan.apart else lines_of
+    told = line_of if _look_at(path, source).plan.apart else lines_of
     return told(blocks(path, source), stream, row)

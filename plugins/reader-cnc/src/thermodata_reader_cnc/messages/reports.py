@@ -78,7 +78,7 @@ def _of_object(message: Mapping[str, Any], at: _Place) -> Iterator[Report]:
         told = shape.told - {shape.value} if shape.value is not None else shape.told
         origins = {k: own for k, each in message.items() if isinstance(each, dict) and (own := _origin(k, each))}
         labels = (*labels, *(_text(message[k][j]) for k, own in origins.items() for j in own))
-        rest = {k: v if k not in origins else _without(v, origins[k]) for k, v in message.items()}
+        rest = {k: v if k not in origins else _without_keys(v, origins[k]) for k, v in message.items()}
         yield from _of_values(rest, _Place(time, labels, at.name, at.depth), told)
 
 
@@ -96,7 +96,7 @@ def _origin(key: str, value: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(k for k in own if _is_scalar(value[k]))
 
 
-def _without(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+def _without_keys(value: Mapping[str, Any], keys: Sequence[str]) -> dict[str, Any]:
     return {k: v for k, v in value.items() if k not in keys}
 
 
@@ -136,11 +136,11 @@ def _of_list(values: Sequence[Any], at: _Place) -> Iterator[Report]:
     if not any(isinstance(each, (dict, list)) for each in values) and len(values) > _MOST_ELEMENTS:
         return
     for k, value in enumerate(values):
-        said = isinstance(value, dict) and (own := shape_of(tuple(value))) is not None and _says(own)
+        said = isinstance(value, dict) and (own := shape_of(tuple(value))) is not None and _says_what_or_when(own)
         yield from _reports_in(value, _Place(at.time, at.labels, at.name if said else f"{at.name}[{k}]", at.depth + 1))
 
 
-def _says(shape: Shape) -> bool:
+def _says_what_or_when(shape: Shape) -> bool:
     """Whether an object of a list says what it is, or when it was."""
     return shape.name is not None or shape.time is not None
 

@@ -100,8 +100,8 @@ class Parser:
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
-        self.parser.StartDoctypeDeclHandler = self._refuse
-        self.parser.EntityDeclHandler = self._refuse
+        self.parser.StartDoctypeDeclHandler = self._refuse_declaration
+        self.parser.EntityDeclHandler = self._refuse_declaration
         self.depth = self.stop = 0
         self.device = self.component = self.group = ""
         self.at = [0, 0, 0, 0]  # depths of what is open, 0 where none is
@@ -112,7 +112,7 @@ class Parser:
         self.keys: list[str] = []
         self.cells: list[tuple[str, str]] = []
 
-    def _refuse(self, *_: object) -> None:
+    def _refuse_declaration(self, *_: object) -> None:
         raise UntrustedError
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:

@@ -49,7 +49,7 @@ class Order:
         if document.instance is not None and document.instance != self.instance:
             self.instance, self.next, self.latest, self.dense = document.instance, None, {}, False
         observed = sorted(document.observations, key=lambda o: o.sequence)
-        yield from self._missing(document, observed)
+        yield from self._lost_sequences(document, observed)
         if document.undated:
             yield Loss(document.place, reason=f"{document.undated} observations without sequence or time")
         part = f"{document.place} sequence"
@@ -68,7 +68,7 @@ class Order:
         if document.next is not None:
             self.next = max(self.next or 0, document.next)
 
-    def _missing(self, document: Document, observed: list[Observation]) -> Iterator[Loss]:
+    def _lost_sequences(self, document: Document, observed: list[Observation]) -> Iterator[Loss]:
         """Sequences that the agent no longer held, and holes in documents that hold all of a range."""
         held = sorted({o.sequence for o in observed})
         if self.next is not None and document.first is not None and document.first > self.next:
@@ -82,9 +82,14 @@ class Order:
         if not held:
             return
         first, stop = held[0], held[-1] + 1
-        if document.whole and document.next is not None and self._near(document.next, stop, len(held)):
+        if document.whole and document.next is not None and self._is_nearly_all(document.next, stop, len(held)):
             stop = max(stop, document.next)  # the answer runs up to here
-        if self.next is not None and self.dense and self.next < first and self._near(first, self.next, len(held)):
+        if (
+            self.next is not None
+            and self.dense
+            and self.next < first
+            and self._is_nearly_all(first, self.next, len(held))
+        ):
             first = self.next
         whole = len(held) + document.undated >= _DENSE * (stop - first)
         if whole and len(held) + document.undated < stop - first and len(held) > 1:
@@ -96,7 +101,7 @@ class Order:
         self.dense = whole
 
     @staticmethod
-    def _near(far: int, near: int, count: int) -> bool:
+    def _is_nearly_all(far: int, near: int, count: int) -> bool:
         return 0 <= far - near <= max(1, (1 - _DENSE) * count)
 
 
@@ -121,20 +126,22 @@ class _Look:
         size = path.stat().st_size
         self.sampled = size > _LOOK
         self.plan = events.plan(
-            self._known(path, size), lambda key: self.names.properties.get(key, {}).get("category") == "SAMPLE"
+            self._sampled_events(path, size), lambda key: self.names.properties.get(key, {}).get("category") == "SAMPLE"
         )
 
-    def _known(self, path: Path, size: int) -> Iterator[Event]:
+    def _sampled_events(self, path: Path, size: int) -> Iterator[Event]:
         for event in _events(path, self.names, 20_000 if self.sampled else None):
-            yield from self._one(event)
+            yield from self._note_series(event)
         for k in range(1, _PIECES + 1 if self.sampled else 0):
             at = (size - _PIECE) * k // _PIECES
             for document in documents(path, self.names, at, at + _PIECE):
                 if isinstance(document, Document):
                     for each in document.observations[:20_000]:
-                        yield from self._one(each if each.series else Event(each.time, each.key, each.value, 0, ""))
+                        yield from self._note_series(
+                            each if each.series else Event(each.time, each.key, each.value, 0, "")
+                        )
 
-    def _one(self, event: Event | Observation | Loss) -> Iterator[Event]:
+    def _note_series(self, event: Event | Observation | Loss) -> Iterator[Event]:
         if isinstance(event, Observation):
             self.series.add(event.key)
         elif isinstance(event, Event):

@@ -231,7 +231,7 @@ def _headed_by(
         unread=tuple(header.raw[k] for k in series.unread),
         faults=tuple(faults),
     )
-    return replace(found, more=_more(found, header.pairs, units, statuses))
+    return replace(found, more=_further_values(found, header.pairs, units, statuses))
 
 
 def _is_wide(header: _Header, series: Series) -> bool:
@@ -262,7 +262,7 @@ def _series(header: _Header, rows: Iterable[Sequence[str]], form: TimeFormat, ot
     return series_of(header.names, whole, t_ns, header.tag, used)
 
 
-def _more(
+def _further_values(
     first: Layout, pairs: Sequence[tuple[int, int]], units: Sequence[int], statuses: Sequence[int]
 ) -> tuple[Layout, ...]:
     """The further values of a row: each with the unit and the status that stand in its own columns, or the row's."""

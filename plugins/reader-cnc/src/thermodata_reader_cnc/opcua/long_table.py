@@ -132,7 +132,7 @@ class _Look:
     sections: Sections
 
 
-def _look(path: Path, source: Source) -> _Look:
+def _look_at(path: Path, source: Source) -> _Look:
     first = sample(path, source.encoding, _LOOK)
     said = (source.table or {}).get("time")
     declared = said.get("format") if isinstance(said, Mapping) else None
@@ -152,10 +152,10 @@ def _look(path: Path, source: Source) -> _Look:
     sections = find_sections(path, first.encoding, layout, declared)
     layout = sections.all[0].layout if sections.all else layout
     units, converted = units_of(layout, (*lines[layout.row + 1 :], *first.rest), path.name)
-    head = _sampled(sections, layout, lines[layout.row + 1 :], layout.row + 1, path.name, units)
-    rest = [] if sections.all else _sampled(sections, layout, first.rest, 0, path.name, units)
+    head = _sampled_events(sections, layout, lines[layout.row + 1 :], layout.row + 1, path.name, units)
+    rest = [] if sections.all else _sampled_events(sections, layout, first.rest, 0, path.name, units)
     for section in {s.layout.header: s for s in sections.all}.values():
-        rest += _sampled(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name, units)
+        rest += _sampled_events(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name, units)
     plan = events.plan([*head, *rest], form=layout.form)
     if not plan.items:
         raise FormatError(
@@ -191,7 +191,7 @@ def _look(path: Path, source: Source) -> _Look:
     )
 
 
-def _sampled(
+def _sampled_events(
     sections: Sections, first: Layout, lines: Sequence[str], line: int, name: str, units: Mapping[str, str]
 ) -> list[Event]:
     """What sampled lines report, of which the first is number `line` of the file."""
@@ -206,7 +206,7 @@ def _sampled(
 
 def describe(path: Path, source: Source) -> Recording:
     """Tags and the first time of a log, by samples of it."""
-    look = _look(path, source)
+    look = _look_at(path, source)
     zoned, said = look.layout.said.source(source, look.plan.first, look.plan.form)
     notes = (*look.notes, *said)
     found = events.recording(look.plan, zoned, complete=None if look.whole else False, notes=notes)
@@ -215,7 +215,7 @@ def describe(path: Path, source: Source) -> Recording:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of held values, and lines that do not read."""
-    look, counts = _look(path, source), dict[str, int]()
+    look, counts = _look_at(path, source), dict[str, int]()
 
     def limited(key: str, loss: Loss) -> Iterator[Loss]:
         key = key if key in counts or len(counts) < 1000 else ""
@@ -246,7 +246,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """The lines of a row."""
     # where each tag is a stream, lines of others stand between
-    told = line_of if _look(path, source).plan.apart else lines_of
+    told = line_of if _look_at(path, source).plan.apart else lines_of
     return told(blocks(path, source), stream, row)
 
 

@@ -29,7 +29,7 @@ def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str
     convert."""
     units, notes = units_behind(layout, lines)
     others: dict[str, dict[str, None]] = {}
-    for tag, unit in _said(layout, lines):
+    for tag, unit in _units_of_tags(layout, lines):
         first = units.setdefault(tag, unit)
         if (factor := conversion(unit, first)) is None:
             raise FormatError(
@@ -79,7 +79,7 @@ def number_and_unit(text: str) -> tuple[float, str] | None:
     return None if number is None else (number, match["unit"])
 
 
-def _said(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[str, str]]:
+def _units_of_tags(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[str, str]]:
     """(tag, unit) of each value whose row says one in a cell of its own."""
     if any(each.unit is not None for each in (layout, *layout.more)):
         for each, cells in _rows(layout, lines):

@@ -64,7 +64,7 @@ class _Columns:
 
 def _columns(header: Mapping[str, Any], stamp: Any, source: Source, where: str) -> _Columns:
     """stamp: the first HFTimestamp."""
-    names, counter, said = _named(header, where)
+    names, counter, said = _names_of_cells(header, where)
     initial = header.get("Initial") if isinstance(header.get("Initial"), dict) else stamp
     start, first = (initial.get("Time"), initial.get("HFProbeCounter")) if isinstance(initial, dict) else (None, None)
     cycle = _number(header.get("CycleTimeMs"))
@@ -81,7 +81,7 @@ def _columns(header: Mapping[str, Any], stamp: Any, source: Source, where: str) 
     return _Columns(tuple(names), counter, said, int(number), ns, cycle * 1e6)
 
 
-def _named(header: Mapping[str, Any], where: str) -> tuple[list[str | None], int, dict[str, dict[str, str]]]:
+def _names_of_cells(header: Mapping[str, Any], where: str) -> tuple[list[str | None], int, dict[str, dict[str, str]]]:
     """(the names of a row's cells, which of them counts the cycles, what the header says of each). A name that comes
     again is told apart by its axis, else by its address. Where none is the counter, that stands before the others."""
     told = header.get("SignalListHFData")
@@ -145,15 +145,15 @@ class _Look:
     plan: events.Plan
 
 
-def _look(path: Path, source: Source) -> _Look:
+def _look_at(path: Path, source: Source) -> _Look:
     with closing(Document(path)) as document:
         stamps: list[Any] = []
-        plan = events.plan(_sampled(document, path.name, stamps))
+        plan = events.plan(_sampled_events(document, path.name, stamps))
         columns = _columns(document.header, stamps[0] if stamps else None, source, path.name)
     return _Look(columns, plan)
 
 
-def _sampled(document: Document, name: str, stamps: list[Any]) -> Iterator[Event]:
+def _sampled_events(document: Document, name: str, stamps: list[Any]) -> Iterator[Event]:
     """Values on change of the first part of a file; stamps gets the first HFTimestamp."""
     for message in document.messages():
         if isinstance(message, dict):
@@ -166,7 +166,7 @@ def _sampled(document: Document, name: str, stamps: list[Any]) -> Iterator[Event
 
 def describe(path: Path, source: Source) -> Recording:
     """Columns of the rows, values on change that the first part of the file holds, and the time of the first cycle."""
-    look = _look(path, source)
+    look = _look_at(path, source)
     slow = events.recording(look.plan, source)
     names = [n for n in look.columns.names if n is not None]
     fast = tuple(Signal(n, HF, None, "float64", None, dict(look.columns.said.get(n, {}))) for n in names)
@@ -216,7 +216,7 @@ def _floats(cells: list[Any]) -> Array:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """Rows of the cycle, rows of values that hold, and what does not read."""
-    look, counts = _look(path, source), dict[str, int]()
+    look, counts = _look_at(path, source), dict[str, int]()
 
     def complain(event: Event, reason: str) -> Iterator[Loss]:
         counts[event.key] = counts.get(event.key, 0) + 1
@@ -250,7 +250,7 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     if stream != HF:
         return None
     seen = 0
-    columns = _look(path, source).columns
+    columns = _look_at(path, source).columns
     for block in blocks(path, source):
         if isinstance(block, Block) and block.stream == HF:
             if row < seen + block.t_ns.size:

@@ -32,7 +32,7 @@ class Document:
         self._file = path.open("rb")
         self._decode = codecs.getincrementaldecoder("utf-8-sig")("replace").decode
         self._text, self._at, self._read, self._ended = "", 0, 0, False  # text[at:] is still to be told
-        self.header = self._begin()
+        self.header = self._read_header()
 
     def close(self) -> None:
         self._file.close()
@@ -42,7 +42,7 @@ class Document:
         """Bytes of the file so far."""
         return self._read
 
-    def _more(self) -> bool:
+    def _read_more(self) -> bool:
         """Whether there was more to read: as much as is held already, so that a long message is not tried too often."""
         self._text, self._at = self._text[self._at :], 0
         if self._ended or len(self._text) > _LONGEST:
@@ -53,18 +53,18 @@ class Document:
         self._text += self._decode(data, final=not data)
         return not self._ended
 
-    def _begin(self) -> dict[str, Any]:
+    def _read_header(self) -> dict[str, Any]:
         while (payload := _PAYLOAD.search(self._text)) is None:
-            if not self._more():
-                raise self._refused("a payload")
+            if not self._read_more():
+                raise self._refusal("a payload")
         found = _HEADER.search(self._text, 0, payload.start())
         header = None if found is None else _object_at(self._text, found.end())
         if header is None or not isinstance(header[0], dict):
-            raise self._refused("a header before its payload")
+            raise self._refusal("a header before its payload")
         self._at = payload.end()
         return header[0]
 
-    def _refused(self, lacking: str) -> FormatError:
+    def _refusal(self, lacking: str) -> FormatError:
         return FormatError(
             "no recording of SINUMERIK Edge",
             where=self.name,
@@ -78,7 +78,7 @@ class Document:
             between = _BETWEEN.match(self._text, self._at)
             self._at = self._at if between is None else between.end()
             if self._at == len(self._text):
-                if self._more():
+                if self._read_more():
                     continue
                 yield Loss(f"{self.name} at its end", reason="the payload has no end: the file is cut")
                 return
@@ -90,10 +90,10 @@ class Document:
                 if isinstance(found[0], dict):
                     yield found[0]
                 continue
-            if self._is_short() and self._more():
+            if self._is_short() and self._read_more():
                 continue
             behind = _MESSAGE.search(self._text, self._at + 1)
-            yield self._lost(len(self._text) if behind is None else behind.start())
+            yield self._loss_up_to(len(self._text) if behind is None else behind.start())
             if behind is None:
                 return
 
@@ -101,7 +101,7 @@ class Document:
         """Whether more text may make a message of what is held: one that another follows in a few pieces is damaged."""
         return len(self._text) - self._at < 8 * PIECE or _MESSAGE.search(self._text, self._at + 1) is None
 
-    def _lost(self, end: int) -> Loss:
+    def _loss_up_to(self, end: int) -> Loss:
         start, letters = self._text[self._at : self._at + 60], end - self._at
         self._at = end
         return Loss(

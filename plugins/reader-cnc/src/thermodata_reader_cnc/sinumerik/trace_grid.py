@@ -71,7 +71,7 @@ def groups_of(frame: Frame, taken: Iterable[str]) -> list[Group]:
 
 def _step(interval: str, times: Float1D, frame: Frame, group: Group) -> float | None:
     """The interval in seconds: the unit (s, ms, us) by which the group's records lie on a grid of it."""
-    value = _finite(interval)
+    value = _finite_number(interval)
     gaps = np.diff(times)
     gaps, since = gaps[gaps > 0], times - times[:1]
     if value is None or not value > 0 or not gaps.size:
@@ -95,12 +95,12 @@ def _steps(step: float, frame: Frame, group: Group) -> Iterator[float]:
         (int(c) for k in group.names if (c := frame.signals[k].get("datapointCount", "")).isdecimal() and len(c) < 12),
         0,
     )
-    length = _finite(frame.header.get("stopInc", ""))
+    length = _finite_number(frame.header.get("stopInc", ""))
     if count > 1 and length and abs(length / (count - 1) / step - 1) < 0.02:
         yield length / (count - 1)
 
 
-def _finite(text: str) -> float | None:
+def _finite_number(text: str) -> float | None:
     value = to_float(text)
     return value if value is not None and np.isfinite(value) else None
 
@@ -126,7 +126,7 @@ def rows(
         column = np.full(which.size, np.nan)
         column[np.searchsorted(which, record)] = known
         if group.servo:
-            column = _held(group, key, column, np.isin(which, record))
+            column = _held_column(group, key, column, np.isin(which, record))
         values[name] = column
     yield _block(group.stream, t_ns, values, at[which])
 
@@ -156,7 +156,7 @@ def _on_grid(
             column, written = np.full(stop - first, np.nan), np.zeros(stop - first, bool)
             column[grid[record[inside]] - first] = known[inside]
             written[grid[record[inside]] - first] = True
-            values[name] = _held(group, key, column, written)
+            values[name] = _held_column(group, key, column, written)
         near = which[(grid[which] >= first) & (grid[which] < stop) & ~far[which]]
         yield _block(group.stream, t_ns, values, _records_of(group, at[near], grid[near] - first, stop - first))
     group.next = max(group.next, last)
@@ -185,7 +185,7 @@ def _far(grid: Int1D, which: Int1D, start: int) -> Bool1D:
         far[left[grid[left] > reached[jump[0]] + _JUMP]] = True
 
 
-def _held(group: Group, key: str, column: Float1D, written: Array) -> Float1D:
+def _held_column(group: Group, key: str, column: Float1D, written: Array) -> Float1D:
     if written.size and not written[0]:
         column[0], written = group.held.get(key, np.nan), written.copy()
         written[0] = True

@@ -44,8 +44,8 @@ class TraceParser:
         self.parser = expat.ParserCreate()
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
-        self.parser.StartDoctypeDeclHandler = self._refuse
-        self.parser.EntityDeclHandler = self._refuse
+        self.parser.StartDoctypeDeclHandler = self._refuse_declaration
+        self.parser.EntityDeclHandler = self._refuse_declaration
 
     def feed(self, data: bytes, final: bool) -> str | None:
         """What is wrong with the XML, or None."""
@@ -62,7 +62,7 @@ class TraceParser:
         """Where in the file the XML ends or goes wrong."""
         return max(0, self.parser.ErrorByteIndex)
 
-    def _refuse(self, *_: Any) -> None:
+    def _refuse_declaration(self, *_: Any) -> None:
         raise FormatError(
             "the XML declares a document type or entities",
             where=self.name,

@@ -40,7 +40,7 @@ def claims(lines: Sequence[str]) -> str | None:
     return None if root is None else f"Sinumerik Trace: an element <{root[1]}>"
 
 
-def _look(path: Path) -> list[Frame]:
+def _frames_by_kind(path: Path) -> list[Frame]:
     """The first frame with signals and its first records; where several are announced, one of each set of signals."""
     parser = TraceParser(path.name)
     by_kind: dict[tuple[tuple[str, ...], ...], Frame] = {}
@@ -113,7 +113,7 @@ def _start_ns(header: dict[str, str], source: Source) -> int | None:
 
 def describe(path: Path, source: Source) -> Recording:
     """Signals and start of a trace, by its head."""
-    frames = _look(path)
+    frames = _frames_by_kind(path)
     start = _start_ns(frames[0].header, source)
     signals, notes = [], []
     for frame, groups in zip(frames, _layouts(frames).values(), strict=True):
@@ -140,7 +140,7 @@ class _Frames:
 
     def __init__(self, path: Path, source: Source) -> None:
         self.name, self.source = path.name, source
-        frames = _look(path)
+        frames = _frames_by_kind(path)
         self.layouts = _layouts(frames)
         self.relative = _start_ns(frames[0].header, source) is None
         self.frame: Frame | None = None

@@ -57,7 +57,7 @@ def _header(path: Path, source: Source) -> tuple[Header, Sample]:
     return read_header(lines, path.name), first
 
 
-def _complete(header: Header, first: Sample) -> bool | None:
+def _is_complete(header: Header, first: Sample) -> bool | None:
     """True behind an EOF row; False without a line end, or where the last rows do not reach the announced end."""
     last = (first.rest or first.head)[-_SAMPLED:]
     if "EOF" in (line.strip() for line in last[-3:]):
@@ -120,7 +120,7 @@ def describe(path: Path, source: Source) -> Recording:
         tuple(Signal(c.name, c.stream, c.unit, c.dtype, None, c.properties) for c in channels),
         "absolute",
         header.start_ns,
-        _complete(header, first),
+        _is_complete(header, first),
         tuple(notes),
     )
 
@@ -153,7 +153,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             losses.add(line, reason, len(tail), longest[1].size)
         yield from losses.dated(longest[0])
     yield from losses.rest()
-    yield from groups.missing(path.name, _complete(header, first), _slack(header, first))
+    yield from groups.missing(path.name, _is_complete(header, first), _slack(header, first))
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
@@ -202,7 +202,7 @@ class _Groups:
 
     def blocks(self, rows: NumberRows, losses: Losses) -> Iterator[Block]:
         """A block a group, of the rows of one part."""
-        twice = self._twice(rows)
+        twice = self._rows_written_twice(rows)
         for time, channels in self.header.groups.items():
             blank = rows.empty[time]
             there = ~blank
@@ -231,13 +231,13 @@ class _Groups:
                 self.reached = latest if self.reached is None else max(latest, self.reached)
                 yield block if fresh.all() else _some_rows(block, fresh)
 
-    def _twice(self, rows: NumberRows) -> Bool1D:
+    def _rows_written_twice(self, rows: NumberRows) -> Bool1D:
         """The rows that stand twice, shape (n,): all groups of them repeat, where one that is slow repeats alone."""
         twice = np.ones(rows.n, bool)
         before, self.last_row = self.last_row, [column[-1] for column in rows.columns] if rows.n else self.last_row
         for k, column in enumerate(rows.columns if rows.n else ()):
-            twice[1:] &= _same(column[1:], column[:-1])
-            twice[0] = twice[0] and before is not None and bool(_same(column[:1], np.asarray([before[k]]))[0])
+            twice[1:] &= _are_same(column[1:], column[:-1])
+            twice[0] = twice[0] and before is not None and bool(_are_same(column[:1], np.asarray([before[k]]))[0])
         return twice
 
     def _fresh(self, time: int, t_ns: Int1D, values: Mapping[str, Array]) -> Bool1D:
@@ -247,7 +247,7 @@ class _Groups:
         before = self.last.get(time)
         same[0] = before is not None and before[0] == t_ns[0]
         for k, column in enumerate(values.values()):
-            same[1:] &= _same(column[1:], column[:-1])
+            same[1:] &= _are_same(column[1:], column[:-1])
             same[0] = same[0] and before is not None and bool(before[1][k] == column[0])
         self.last[time] = int(t_ns[-1]), [column[-1] for column in values.values()]
         result: Bool1D = ~same
@@ -270,7 +270,7 @@ class _Groups:
         )
 
 
-def _same(one: Array, other: Array) -> Bool1D:
+def _are_same(one: Array, other: Array) -> Bool1D:
     """Where two columns hold the same, NaN being NaN."""
     same: Bool1D = (one == other) | ((one != one) & (other != other))
     return same

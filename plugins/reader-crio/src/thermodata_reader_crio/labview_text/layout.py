@@ -91,7 +91,7 @@ def find_layout(lines: Sequence[str], name: str, wanted: WantedTime) -> Layout:
     for delimiter in ("\t", ";", ",", " "):
         found = _rows(lines, delimiter)
         if found is not None:
-            return _made(found, name, wanted)
+            return _layout_of(found, name, wanted)
     raise FormatError(
         "no rows of numbers",
         where=name,
@@ -101,7 +101,7 @@ def find_layout(lines: Sequence[str], name: str, wanted: WantedTime) -> Layout:
     )
 
 
-def _split(line: str, delimiter: str) -> list[str]:
+def _cells_of(line: str, delimiter: str) -> list[str]:
     return line.split() if delimiter == " " else [clean(c) for c in line.split(delimiter)]
 
 
@@ -144,7 +144,7 @@ class _Rows:
 
 def _rows(lines: Sequence[str], delimiter: str) -> _Rows | None:
     """Rows of numbers between this delimiter, where the lines are mostly such."""
-    cells = [_split(line, delimiter) for line in lines]
+    cells = [_cells_of(line, delimiter) for line in lines]
     counts = Counter(len(row) for row in cells[len(cells) // 2 :] if any(row))
     if not counts:
         return None
@@ -176,7 +176,7 @@ def _rows(lines: Sequence[str], delimiter: str) -> _Rows | None:
     return _Rows(lines, cells, delimiter, first, columns, decimal, text)
 
 
-def _made(rows: _Rows, name: str, wanted: WantedTime) -> Layout:
+def _layout_of(rows: _Rows, name: str, wanted: WantedTime) -> Layout:
     """With the names, units and time of the columns. name: of the file."""
     heads = rows.heads()
     units_row = len(heads) > 1 and _is_units(heads[-1])
@@ -193,7 +193,7 @@ def _made(rows: _Rows, name: str, wanted: WantedTime) -> Layout:
         rows.decimal,
         rows.first,
         frozenset(line.strip() for line in rows.lines[: rows.first]),
-        _unique(names),
+        _unique_names(names),
         tuple(units),
         clock,
         time,
@@ -243,10 +243,10 @@ def _clock(
         if _since_1904(values[:, at]):
             return "1904", at, 1.0
     called = [i for i in range(len(names)) if is_time_header(names[i], units[i]) or _TIME_WORDS.match(names[i])]
-    called = [i for i in called if _moves(values[:, i])]
+    called = [i for i in called if _goes_one_way(values[:, i])]
     if called and named:
         return counting(called[0])
-    if not _rises(values[:, 0]):
+    if not _rises_throughout(values[:, 0]):
         return "none", 0, 1.0
     steps = np.diff(values[:, 0])
     if not named and steps.max() <= _EVEN * steps.min():
@@ -256,14 +256,14 @@ def _clock(
     return "none", 0, 1.0
 
 
-def _moves(column: Any) -> bool:
+def _goes_one_way(column: Any) -> bool:
     """Whether a column that is called a time may be one."""
     full = column[np.isfinite(column)]
     steps = np.diff(full)
     return bool(full.size > 0.6 * column.size and steps.size and max((steps >= 0).mean(), (steps <= 0).mean()) > 0.9)
 
 
-def _rises(column: Any) -> bool:
+def _rises_throughout(column: Any) -> bool:
     return column.size > 1 and bool(np.isfinite(column).all()) and bool((np.diff(column) > 0).all())
 
 
@@ -278,7 +278,7 @@ def _since_1904(column: Any) -> bool:
     )
 
 
-def _unique(names: list[str]) -> tuple[str, ...]:
+def _unique_names(names: list[str]) -> tuple[str, ...]:
     found: list[str] = []
     for name in names:
         made, count = name, 2

@@ -130,7 +130,7 @@ def read_packet(lines: list[str], names_line: str, header: Header, path: Path, n
     notes = [*twice, *_against_names(header, keys, multi, len(columns)), *_lacking(keys, len(columns))]
     return Packet(
         keys=keys,
-        names=_unique([row[c] or f"column {c + 1}" for c in columns]),
+        names=_unique_names([row[c] or f"column {c + 1}" for c in columns]),
         columns=columns,
         x=tuple(c - 1 if multi else 0 if header.x_columns != "No" else None for c in columns),
         comment=comment,
@@ -193,7 +193,7 @@ def _lacking(keys: Mapping[str, list[str]], channels: int) -> Iterator[str]:
             yield f"{key} stands for {told} of {channels} channels"
 
 
-def _unique(names: list[str]) -> tuple[str, ...]:
+def _unique_names(names: list[str]) -> tuple[str, ...]:
     """Names of which each stands once: 'T', 'T#2', and more '#' where a channel is called so already."""
     found: list[str] = []
     seen: dict[str, int] = {}

@@ -62,11 +62,11 @@ class PacketRows:
         unheld = np.ones(rows.n, bool)  # rows that no group should have so far: an empty one is told once
         for group in self.streams.groups(self.packet):
             block, good = self._block(rows, group, cells)
-            goes_on = self._sampled(group, cells, rows.n)
+            goes_on = self._has_samples(group, cells, rows.n)
             if good is not None:
                 said = self._has_value(group, cells, rows.n) | (unheld & goes_on)
                 lost |= set(rows.line[~good & said].tolist())
-            lost |= self._within(group, rows, good, goes_on)
+            lost |= self._lines_lacking(group, rows, good, goes_on)
             unheld &= ~goes_on
             size = self.block_rows or max(1, block.t_ns.size)
             for a in range(0, block.t_ns.size, size):
@@ -74,7 +74,7 @@ class PacketRows:
         self.done += rows.n
         yield from self._losses(rows, cells, lost)
 
-    def _within(self, group: list[int], rows: Rows, good: Bool1D | None, goes_on: Bool1D) -> set[int]:
+    def _lines_lacking(self, group: list[int], rows: Rows, good: Bool1D | None, goes_on: Bool1D) -> set[int]:
         """The lines that a group lacks before one that it has: those behind the last one are its end."""
         has = np.flatnonzero(goes_on if good is None else good & goes_on)
         lacks = np.zeros(0, np.int64) if good is None else np.flatnonzero(~good & goes_on)
@@ -111,7 +111,7 @@ class PacketRows:
         t_ns, good = self.times.of(group[0], rows.columns[x].values if x is not None else None, self.done, n)
         if cells.hopeless is not None:
             good = good & ~cells.hopeless
-        keep = good & self._sampled(group, cells, n) if cells.empty else good
+        keep = good & self._has_samples(group, cells, n) if cells.empty else good
         values: dict[str, Array] = {packet.names[i]: rows.columns[packet.columns[i]].values for i in group}
         flags = self._flags(group, cells)
         self._in_first_unit(group, values, flags)
@@ -166,7 +166,7 @@ class PacketRows:
         measured: Bool1D = ~np.logical_and.reduce([cells.empty[c] for c in columns])
         return measured
 
-    def _sampled(self, group: list[int], cells: _Cells, n: int) -> Bool1D:
+    def _has_samples(self, group: list[int], cells: _Cells, n: int) -> Bool1D:
         """False where a channel has no sample: its heading announces fewer than others have, and its cells are
         empty."""
         own = self.packet.samples(group[0])

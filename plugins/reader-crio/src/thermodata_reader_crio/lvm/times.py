@@ -29,7 +29,7 @@ class Times:
                 self.empty.add(x)
                 self.notes.append(f"line {packet.line}: its X column is empty; rows are counted by Delta_X")
         if packet.x and packet.x[0] is None and first.n and bool(np.isfinite(first.columns[0].values).all()):
-            self._say(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
+            self._note(f"line {packet.line}: X_Columns is 'No', but rows begin with a number; it is not used as time")
 
     def base(self, channel: int) -> int:
         """The time of X = 0, or of the first row where rows are counted; 0 where the file names no date."""
@@ -68,13 +68,13 @@ class Times:
         """UTC of the packet's Date and Time (local, as the source's zone says); None where there is none."""
         start, decided = self.starts.utc(self.packet, channel)
         for note in decided:
-            self._say(note)
+            self._note(note)
         date, time = said_start(self.header, self.packet, channel)
         if is_unset(self.packet, channel):
             instead = "the file's is taken" if start is not None else "times count from the start of the rows"
-            self._say(f"line {self.packet.line}: its start is LabVIEW's zero, in 1904, which says none; {instead}")
+            self._note(f"line {self.packet.line}: its start is LabVIEW's zero, in 1904, which says none; {instead}")
         if start is None and (date or time):
-            self._say(
+            self._note(
                 f"line {self.packet.line}: date '{date[:20]}' and time '{time[:30]}' are not understood; "
                 "times count from the start of the rows"
             )
@@ -86,10 +86,10 @@ class Times:
             return default
         value = of_either_mark(text)
         if value is None or not abs(value) <= 9e9:
-            self._say(f"line {self.packet.line}: {key} '{text[:30]}' is no number; taken as {default:g}")
+            self._note(f"line {self.packet.line}: {key} '{text[:30]}' is no number; taken as {default:g}")
             return default
         return value
 
-    def _say(self, text: str) -> None:
+    def _note(self, text: str) -> None:
         if text not in self.notes:
             self.notes.append(text)

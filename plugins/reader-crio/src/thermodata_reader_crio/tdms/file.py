@@ -42,7 +42,7 @@ def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
     with _LOCK:
         found = _KEPT.pop(key, None)
     if found is None:
-        found = _opened(path, source, sheet)
+        found = _open_uncached(path, source, sheet)
     if keep:
         with _LOCK:
             _KEPT.clear()
@@ -50,7 +50,7 @@ def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
     return found
 
 
-def _opened(path: Path, source: Source, sheet: int | str | None) -> File:
+def _open_uncached(path: Path, source: Source, sheet: int | str | None) -> File:
     """Index, streams and notes of a TDMS file, or of one group of it; reads no bulk (but the start of channels that
     hold a time)."""
     index = read_index(path)

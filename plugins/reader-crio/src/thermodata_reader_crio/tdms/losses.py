@@ -16,7 +16,7 @@ def losses(file: File, path: Path, last_ns: int | None) -> Iterator[Loss]:
     last_ns: the last time that was delivered."""
     index = file.index
     for hole in index.holes:
-        from_ns, to_ns = _around(file, hole)
+        from_ns, to_ns = _times_around(file, hole)
         gone = hole.end - hole.start
         length = "" if hole.chunks is None else "; as long as the segments before it, so times go on behind it"
         if hole.chunks is None:
@@ -34,7 +34,7 @@ def losses(file: File, path: Path, last_ns: int | None) -> Iterator[Loss]:
         yield _end(file, path, last_ns)
 
 
-def _around(file: File, hole: Hole) -> tuple[int | None, int | None]:
+def _times_around(file: File, hole: Hole) -> tuple[int | None, int | None]:
     """The last time before a hole, and the first behind it where that is known."""
     before: list[int] = []
     behind: list[int] = []

@@ -38,12 +38,12 @@ def describe(path: Path, source: Source) -> Recording:
         signals=tuple(c.signal for s in file.streams for c in s.channels),
         clock="absolute" if absolute else "relative",
         start_ns=min(starts) if absolute and starts else (0 if absolute else None),
-        complete=_complete(file),
+        complete=_is_complete(file),
         notes=tuple(notes),
     )
 
 
-def _complete(file: File) -> bool | None:
+def _is_complete(file: File) -> bool | None:
     """False where something is gone. A file that ends behind one of several segments may have had more."""
     if file.index.damage is not None or file.index.holes or file.partly:
         return False
@@ -124,7 +124,7 @@ def _block(handle: BinaryIO, stream: Stream, first: int, last: int, shift: int) 
     for channel in stream.channels:
         parts = raw[at : at + len(channel.columns)]
         at += len(channel.columns)
-        value, flag = _whole(_joined(channel, parts), last - first)
+        value, flag = _with_lost_end(_joined_values(channel, parts), last - first)
         if suspect is not None:
             flag = suspect * np.uint16(Flag.CLOCK_SUSPECT) | (0 if flag is None else flag)
         values[channel.signal.name] = value
@@ -137,7 +137,7 @@ def _block(handle: BinaryIO, stream: Stream, first: int, last: int, shift: int) 
     return Block(stream.name, t_ns, values, flags or None)
 
 
-def _joined(channel: Channel, parts: list[Array]) -> Array:
+def _joined_values(channel: Channel, parts: list[Array]) -> Array:
     if len(parts) == 1:
         return parts[0].astype(bool) if channel.signal.dtype == "bool" else parts[0]
     # imported here: the calibration floor is needed for such channels only
@@ -148,7 +148,7 @@ def _joined(channel: Channel, parts: list[Array]) -> Array:
     return apply_scaling(channel.joined_by, raw, channel=channel.signal.name)
 
 
-def _whole(value: Array, n: int) -> tuple[Array, Array | None]:
+def _with_lost_end(value: Array, n: int) -> tuple[Array, Array | None]:
     """A channel that a cut file ends before its neighbours: NaN, zero or empty text, flagged as not measuring, so
     that the neighbours keep their rows; and text that the file's own offsets do not give, flagged alike."""
     flag = None

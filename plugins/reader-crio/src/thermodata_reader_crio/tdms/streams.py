@@ -80,11 +80,11 @@ class StreamMaker:
             name = self._name(group)
             holding = None if part[0].clock is not None else times.of_rows(part[0])
             if holding is not None:
-                yield self._timed(name, part, times.taken(holding))
+                yield self._timed_stream(name, part, times.taken(holding))
             else:
                 yield self._clocked(name, part, begins)
         for c in times.left():  # a time channel beside waveforms is a signal like any other
-            yield self._timed(self._name(group), [c], times.taken(c))
+            yield self._timed_stream(self._name(group), [c], times.taken(c))
 
     def _is_measured(self, channel: Channel, times: _Times) -> bool:
         """Whether a channel holds no time, and stands over time: not over a frequency or a position, as its properties
@@ -109,7 +109,7 @@ class StreamMaker:
         taken.setdefault(name.casefold(), 2)
         return name
 
-    def _timed(self, name: str, part: Sequence[Channel], time: TimeChannel) -> Stream:
+    def _timed_stream(self, name: str, part: Sequence[Channel], time: TimeChannel) -> Stream:
         """A stream whose time a channel holds."""
         self.notes.extend(n for n in time.notes if n not in self.notes)
         return Stream(name, tuple([c.in_stream(name) for c in part]), None, time)

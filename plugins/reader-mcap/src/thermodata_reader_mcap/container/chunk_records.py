@@ -68,7 +68,7 @@ def _by_index(inner: Bytes, at: Int1D) -> list[ChunkPart] | None:
                 return None
             opcode, length = HEAD.unpack_from(inner, place)
             record = Record(opcode, place + HEAD.size, place + HEAD.size + length)
-            if record.stop > stop or opcode == MESSAGE or not _known(inner, record):
+            if record.stop > stop or opcode == MESSAGE or not _may_stand_in_chunk(inner, record):
                 return None
             between.append((inner[record.start : record.stop], opcode))
             place = record.stop
@@ -94,7 +94,7 @@ def _by_walking(inner: Bytes) -> Iterator[ChunkPart | Damage]:
                 found.append(at)
                 at = stop
                 continue
-        elif stop <= size and _known(inner, Record(opcode, at + HEAD.size, stop)):
+        elif stop <= size and _may_stand_in_chunk(inner, Record(opcode, at + HEAD.size, stop)):
             if found:
                 yield ChunkPart(tuple(between), np.array(found, np.int64), at)
                 between, found = [], []
@@ -113,7 +113,7 @@ def _by_walking(inner: Bytes) -> Iterator[ChunkPart | Damage]:
         yield Damage(at, size, "no record")
 
 
-def _known(inner: Bytes, record: Record) -> bool:
+def _may_stand_in_chunk(inner: Bytes, record: Record) -> bool:
     """Whether a record may stand in a chunk, beside messages."""
     if record.opcode in (SCHEMA, CHANNEL):
         return content_end(inner, record) is not None

@@ -65,7 +65,7 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
             if end is not None and view[end : end + len(MAGIC)] == MAGIC:  # recordings joined into one file
                 at = first = end + len(MAGIC)
                 continue
-        elif not record.cut and _stands(view, record, first):
+        elif not record.cut and _is_sound(view, record, first):
             yield record
             at = stop
             continue
@@ -84,7 +84,7 @@ def data_section(view: memoryview) -> Iterator[Record | Damage]:
     yield Damage(size, size, "the file ends without the end of its data: it was cut")
 
 
-def _stands(view: memoryview, record: Record, first: int) -> bool:
+def _is_sound(view: memoryview, record: Record, first: int) -> bool:
     """Whether a record is what its head says; `first` is where the only header may stand. A length that a wrong bit
     made longer would swallow what follows."""
     if record.opcode == HEADER and record.start != first + HEAD.size:

@@ -81,13 +81,13 @@ def collect_messages(
             loose.append(record.start - HEAD.size)
             content.pending += record.stop - record.start
             if len(loose) >= _LOOSE or content.pending >= _PIECE:
-                _take(view, np.array(loose, np.int64), content)
+                _take_messages(view, np.array(loose, np.int64), content)
                 loose = []
                 if full():
                     yield None
             continue
         if loose:
-            _take(view, np.array(loose, np.int64), content)
+            _take_messages(view, np.array(loose, np.int64), content)
             loose = []
         if isinstance(record, Record) and record.opcode == MESSAGE_INDEX and not record.cut:
             if waiting is not None:
@@ -112,7 +112,7 @@ def collect_messages(
             if full():
                 yield None
     if loose:
-        _take(view, np.array(loose, np.int64), content)
+        _take_messages(view, np.array(loose, np.int64), content)
     if waiting is not None:
         yield from _chunk(view, waiting[0], content, number, waiting[1], full)
 
@@ -150,7 +150,7 @@ def _chunk(
             define(body, opcode, content)
         for at in _slices(part.messages):
             content.pending += int(at[-1] - at[0]) + len(inner) - int(part.messages[-1])
-            _take(inner, at, content)
+            _take_messages(inner, at, content)
             if full():
                 yield None
     content.chunk = None
@@ -178,7 +178,7 @@ def _slices(at: npt.NDArray[np.int64]) -> Iterator[npt.NDArray[np.int64]]:
                 yield part
 
 
-def _take(inner: Bytes, at: npt.NDArray[np.int64], content: Content) -> None:
+def _take_messages(inner: Bytes, at: npt.NDArray[np.int64], content: Content) -> None:
     if content.follow is not None:
         content.follow(inner, at)
     log_ns = take(

@@ -49,7 +49,7 @@ def columns(topic: Topic, decode: Callable[[bytes], Any], payloads: Sequence[byt
                     Wrong(k, leaf.name, "a number that a float64 holds; it is rounded", str(value)[:60])
                 )
             column.append(good)
-        for count, path in enumerate(_new(message, known, topic.long)):
+        for count, path in enumerate(_unknown_paths(message, known, topic.long)):
             if count == _NEW:
                 break
             result.wrong.append(Wrong(k, path_name(topic.name, path), None, ""))
@@ -94,16 +94,18 @@ def _has_inner(value: Any) -> bool:
     return isinstance(value, Mapping | list) and len(value) > 0
 
 
-def _new(message: Any, known: set[Path] | frozenset[Path], long: frozenset[Path], path: Path = ()) -> Iterator[Path]:
+def _unknown_paths(
+    message: Any, known: set[Path] | frozenset[Path], long: frozenset[Path], path: Path = ()
+) -> Iterator[Path]:
     """The paths of values that are none of the signals."""
     if len(path) >= MOST_DEPTH and isinstance(message, Mapping | list):
         return
     if isinstance(message, Mapping):
         for key, inner in message.items():
-            yield from _new(inner, known, long, (*path, str(key)))
+            yield from _unknown_paths(inner, known, long, (*path, str(key)))
     elif isinstance(message, list):
         for place, inner in enumerate(message[:MOST_ELEMENTS]):
-            yield from _new(inner, known, long, (*path, place))
+            yield from _unknown_paths(inner, known, long, (*path, place))
         if len(message) > MOST_ELEMENTS and path not in long:
             yield (*path, MOST_ELEMENTS)
     elif message is not None and path not in known:

@@ -71,7 +71,7 @@ class Writer:
         for name, batch in batches.items():
             topic = self.plan.topics.get(str(name))
             if topic is not None and topic.name in self.plan.samples:
-                batch = self._apart(topic, batch)
+                batch = self._samples_apart(topic, batch)
             logs, publishes = batch.times()
             for channel, places in batch.places().items():
                 if topic is None or self._reader(channel) is None:
@@ -87,7 +87,7 @@ class Writer:
             for each in made:
                 yield from self._blocks(topic, each, logs[part], publishes[part])
 
-    def _apart(self, topic: Topic, batch: Batch) -> Batch:
+    def _samples_apart(self, topic: Topic, batch: Batch) -> Batch:
         """Each sample of the batch's messages as a message."""
         return parted(batch, self.plan.samples[topic.name]).batch
 
@@ -124,7 +124,7 @@ class Writer:
         payloads = batch.payloads[part]
         if len(batch.members) == 1:
             made = self._reader(next(iter(batch.members)))
-            return [] if made is None else self._made(topic, next(iter(batch.members)), made, payloads)
+            return [] if made is None else self._columns_of_channel(topic, next(iter(batch.members)), made, payloads)
         kinds = np.concatenate(batch.kinds)[part]
         groups: dict[int, tuple[Decoder, Channel, list[int]]] = {}
         for channel, kind in batch.members.items():
@@ -135,7 +135,7 @@ class Writer:
                         k
                         for k, (other, first, _) in groups.items()
                         if (other is made or (other.json and made.json and _text(other) == _text(made)))
-                        and self._others(topic, first, other) == self._others(topic, channel, made)
+                        and self._other_units(topic, first, other) == self._other_units(topic, channel, made)
                     ),
                     kind,
                 )
@@ -146,15 +146,17 @@ class Writer:
             mine = np.flatnonzero(np.isin(kinds, members))
             if mine.size:
                 places[key] = mine
-                parts[key] = self._made(topic, channel, made, [payloads[k] for k in mine.tolist()])
+                parts[key] = self._columns_of_channel(topic, channel, made, [payloads[k] for k in mine.tolist()])
         return [merged(parts, places)] if parts else []
 
-    def _others(self, topic: Topic, channel: Channel, made: Decoder) -> tuple[OtherUnit, ...]:
+    def _other_units(self, topic: Topic, channel: Channel, made: Decoder) -> tuple[OtherUnit, ...]:
         return self.plan.sent.others(channel, made, topic)
 
-    def _made(self, topic: Topic, channel: Channel, made: Decoder, payloads: Sequence[bytes]) -> list[Columns]:
+    def _columns_of_channel(
+        self, topic: Topic, channel: Channel, made: Decoder, payloads: Sequence[bytes]
+    ) -> list[Columns]:
         """Messages of one channel as columns, in the units of the topic."""
-        others = self._others(topic, channel, made)
+        others = self._other_units(topic, channel, made)
         return [in_units_of_topic(part, others) for part in columns(topic, made, payloads)]
 
     def _blocks(self, topic: Topic, part: Columns, logs: U64, publishes: U64) -> Iterator[Block | Loss]:
@@ -171,26 +173,26 @@ class Writer:
             values[name] = np.where(beyond, 0, shown).astype(np.int64)
             if beyond.any():
                 flags[name] = beyond * MISSING
-                yield from self._say(topic, Wrong(int(kept[beyond][0]), name, "a time", "2262 or later"), logs)
+                yield from self._tell_wrong(topic, Wrong(int(kept[beyond][0]), name, "a time", "2262 or later"), logs)
         elif kind == LOG and not np.array_equal(logs[kept], publishes[kept]):
-            yield from self._say(topic, Wrong(int(kept[0]), time_name(topic, PUBLISH), None, ""), logs)
+            yield from self._tell_wrong(topic, Wrong(int(kept[0]), time_name(topic, PUBLISH), None, ""), logs)
         if suspect.any():
             for name in values:
                 flags[name] = flags.get(name, np.zeros(kept.size, np.uint16)) | (suspect * _SUSPECT)
             got = f"none in {int(suspect.sum())} messages; their log time stands for it"
-            yield from self._say(topic, Wrong(int(kept[suspect][0]), "", f"a time in {kind}", got), logs)
+            yield from self._tell_wrong(topic, Wrong(int(kept[suspect][0]), "", f"a time in {kind}", got), logs)
         t_ns: Int1D = np.where(late, 0, t).astype(np.int64)
         if late.any():
             good = ~late
             got = f"later ones in {int(late.sum())} messages, which are not read"
-            yield from self._say(topic, Wrong(int(kept[late][0]), "", "a time before 2262", got), logs)
-            t_ns, values, flags = t_ns[good], _only(values, good), _only(flags, good)
+            yield from self._tell_wrong(topic, Wrong(int(kept[late][0]), "", "a time before 2262", got), logs)
+            t_ns, values, flags = t_ns[good], _rows_of(values, good), _rows_of(flags, good)
         if t_ns.size:
             yield Block(topic.name, t_ns, values, flags or None)
         for wrong in part.wrong:
-            yield from self._say(topic, wrong, logs)
+            yield from self._tell_wrong(topic, wrong, logs)
 
-    def _say(self, topic: Topic, wrong: Wrong, logs: U64) -> Iterator[Loss]:
+    def _tell_wrong(self, topic: Topic, wrong: Wrong, logs: U64) -> Iterator[Loss]:
         at = int(logs[wrong.message]) if logs[wrong.message] < LATEST_NS else None
         if wrong.expected is None:
             self._new.setdefault(wrong.name, _Tally(topic.name)).add(at)
@@ -255,5 +257,5 @@ def _text(one: Decoder) -> object:
     return getattr(one, "encoding", None)
 
 
-def _only(every: dict[str, Array], good: Array) -> dict[str, Array]:
+def _rows_of(every: dict[str, Array], good: Array) -> dict[str, Array]:
     return {name: values[good] for name, values in every.items()}

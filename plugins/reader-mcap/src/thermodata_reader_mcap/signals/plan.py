@@ -72,7 +72,7 @@ def content(view: memoryview, name: str, said: Summary) -> Content:
 def plan(view: memoryview, name: str, source: Source) -> Plan:
     """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
     chosen, said, chunks = options(source), summary(view), survey(view)
-    walk = _walk(view, name, source, said, chunks)
+    walk = _walk_messages(view, name, source, said, chunks)
     _refuse_missing(source, [*walk.channels, *said.channels.values()], name)
     notes = extras(view, chunks.extras)
     if said.damaged:
@@ -97,7 +97,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     chosen = _with_unit(chosen, batches, found, name)
     clock = _clock(chosen, batches, found)
     notes += clock.notes
-    stamped = _stamped(chosen, batches, found)
+    stamped = _time_signals(chosen, batches, found)
     series, more = _senders(found, batches, stamped, chosen.series)
     notes += more
     times = {chosen.stamp} if chosen.stamp is not None else set[Path]()
@@ -137,7 +137,7 @@ class _Walk:
     damaged: bool
 
 
-def _walk(view: memoryview, name: str, source: Source, said: Summary, chunks: Chunks) -> _Walk:
+def _walk_messages(view: memoryview, name: str, source: Source, said: Summary, chunks: Chunks) -> _Walk:
     chosen = chosen_of(chunks)
     met = content(view, name, said)
     met.key = lambda channel: channel if wanted_topic(channel.topic, source) else None
@@ -195,11 +195,11 @@ def _clock(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) 
     return _Clock(start, relative, notes)
 
 
-def _stamped(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) -> dict[str, str]:
+def _time_signals(chosen: Options, batches: dict[Channel, Batch], found: _FoundTopics) -> dict[str, str]:
     """Topic -> the time of its records that is a signal: the one that is not the rows' own, where it says more."""
     if chosen.time != LOG:
         return dict.fromkeys(found.topics, LOG)
-    different = {c.topic for c, b in batches.items() if not _same(b)}
+    different = {c.topic for c, b in batches.items() if not _times_agree(b)}
     return {topic: PUBLISH for topic in found.topics if chosen.publish or topic in different}
 
 
@@ -284,7 +284,7 @@ def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) ->
     return True
 
 
-def _same(batch: Batch) -> bool:
+def _times_agree(batch: Batch) -> bool:
     """Whether its messages were published when they were logged."""
     log_ns, publish_ns = batch.times()
     return bool(np.array_equal(log_ns, publish_ns))

@@ -72,7 +72,7 @@ def _key(view: memoryview, path: Path, source: Source) -> tuple[object, ...]:
     return str(path.absolute()), stat.st_size, stat.st_mtime_ns, stat.st_ino, bytes(view[-64:]), repr(source)
 
 
-def _remembered(view: memoryview, path: Path, source: Source) -> Plan:
+def _plan_of_describe(view: memoryview, path: Path, source: Source) -> Plan:
     """The first look at a file that describe took just before, or a new one."""
     with _LOCK:
         found = _PLANS.pop(_key(view, path, source), None)
@@ -93,7 +93,7 @@ def _properties(found: Plan) -> dict[str, dict[str, str]]:
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The messages, topic by topic in batches of about 16 MB, and what is damaged."""
     with opened(path) as view:
-        found = _remembered(view, path, source)
+        found = _plan_of_describe(view, path, source)
         met = content(view, path.name, found.summary)
         met.key = lambda channel: channel.topic if wanted_topic(channel.topic, source) else None
         with ThreadPoolExecutor(2) as pool:
@@ -101,11 +101,11 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             apart = [TakenApart(one, f"{path.name} topic '{topic}'") for topic, one in found.series.items()]
             whole = True
             for loss in collect_messages(view, met, lambda: met.pending >= BATCH):
-                yield from _split(_in_one_unit(writer.flush(), found, path.name), apart)
+                yield from _senders_apart(_in_one_unit(writer.flush(), found, path.name), apart)
                 if loss is not None:
                     whole = False
                     yield loss
-            yield from _split(_in_one_unit(writer.flush(), found, path.name), apart)
+            yield from _senders_apart(_in_one_unit(writer.flush(), found, path.name), apart)
             for one in apart:
                 yield from one.rest()
             if whole and met.recordings < 2:
@@ -121,7 +121,7 @@ def _in_one_unit(items: Iterator[Block | Loss], found: Plan, where: str) -> Iter
     return items
 
 
-def _split(items: Iterator[Block | Loss], apart: Sequence[TakenApart]) -> Iterator[Block | Loss]:
+def _senders_apart(items: Iterator[Block | Loss], apart: Sequence[TakenApart]) -> Iterator[Block | Loss]:
     """Blocks of topics on which several sensors send, taken apart; all else as it is."""
     by_topic = {one.series.stream: one for one in apart}
     for item in items:

@@ -83,7 +83,7 @@ class _Counting(Writer):
     base: int = 0
     size: int = 0
 
-    def _apart(self, topic: Topic, batch: Batch) -> Batch:
+    def _samples_apart(self, topic: Topic, batch: Batch) -> Batch:
         found = parted(batch, self.plan.samples[topic.name])
         self.origins.append(found.origin + self.messages)
         self.messages += len(batch.payloads)

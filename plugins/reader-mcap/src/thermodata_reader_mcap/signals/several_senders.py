@@ -57,7 +57,9 @@ def senders(
         absolute=True,
         declared=mine,
         pieces=np.array(pieces, np.int64)[order],
-        called=Called(lambda one: f"{topic.name}/{_bare(topic.name, one)}", partial(_named, topic.name), taken),
+        called=Called(
+            lambda one: f"{topic.name}/{_without_topic(topic.name, one)}", partial(_signal_of_series, topic.name), taken
+        ),
         kept={*times, *({leaf.name for leaf in topic.leaves} - set(values))},
     )
 
@@ -73,7 +75,7 @@ def looked_at(
         batch = batches[channel]
         times = batch.times()[0]
         piece = before = -1
-        for k in _chosen(len(batch.payloads), most):
+        for k in _places_looked_at(len(batch.payloads), most):
             piece, before = piece + (k != before + 1 or piece < 0), k
             try:
                 message = one.decode(batch.payloads[k])
@@ -93,13 +95,13 @@ def _may_name(leaf: Leaf) -> bool:
     return leaf.dtype == "str" or bare_header(leaf.name) in SENSOR_WORDS
 
 
-def _named(topic: str, series: str, name: str) -> str:
+def _signal_of_series(topic: str, series: str, name: str) -> str:
     """'/temperature.value' of the series 'bed' is '/temperature/bed.value'."""
-    series = _bare(topic, series)
+    series = _without_topic(topic, series)
     return f"{topic}/{series}{name[len(topic) :]}" if name.startswith(topic) else f"{series}/{name}"
 
 
-def _bare(topic: str, series: str) -> str:
+def _without_topic(topic: str, series: str) -> str:
     """A series that is called by a number and its field, without the topic: 'ch 1' of '/temps.ch 1'."""
     return series.removeprefix(f"{topic}.")
 
@@ -108,7 +110,7 @@ def _is_time(path: Path) -> bool:
     return "stamp" in map(str, path)
 
 
-def _chosen(count: int, most: int) -> list[int]:
+def _places_looked_at(count: int, most: int) -> list[int]:
     """Places of messages: all, or the first ones and pieces of the rest."""
     if count <= most:
         return list(range(count))

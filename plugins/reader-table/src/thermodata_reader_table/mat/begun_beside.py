@@ -60,7 +60,7 @@ def begun_beside(tree: Tree, streams: Sequence[_Timed], source: Source, where: s
     lines = [[name, *node.lines] for name, node in tree.variables.items() if isinstance(node, Text)]
     if not streams or (declared is None and not _may_begin(lines, streams)):
         return None, []
-    begin, doubt = find_begin(lines, _first(streams), declared, where)
+    begin, doubt = find_begin(lines, _first_times(streams), declared, where)
     if begin is None or declared is None:
         text = not_taken_note(begin.text, _BESIDE) if begin is not None else doubt
         return None, [text.replace("the head says", f"{_BESIDE} says")] if text else []
@@ -78,7 +78,7 @@ def _may_begin(lines: Sequence[Sequence[str]], streams: Sequence[_Timed]) -> boo
     return said is not None and said.says is TimeLabel.BEGAN and all(s.time.texts is None for s in streams)
 
 
-def _first(streams: Sequence[_Timed]) -> FirstTimes:
+def _first_times(streams: Sequence[_Timed]) -> FirstTimes:
     """Of the stream that begins first."""
     each = [t[t != NAT].tolist() for s in streams if (t := s.times(0, ROWS)).size]
     return FirstTimes(tuple(min((t for t in each if t), default=[])), False)

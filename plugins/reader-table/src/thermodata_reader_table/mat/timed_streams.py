@@ -42,10 +42,10 @@ class TimedStream:
 
     def times(self, start: int, stop: int) -> Int1D:
         """Times of rows [start, stop) in ns, shape (n,); NAT where a row has none."""
-        own = self._own(start, stop)
+        own = self._own_times(start, stop)
         return own if self.begun is None else self.begun.utc(own)
 
-    def _own(self, start: int, stop: int) -> Int1D:
+    def _own_times(self, start: int, stop: int) -> Int1D:
         if self.whole is not None:
             return self.whole[start:stop]
         if self.time.load is None:
@@ -68,7 +68,7 @@ class Clocked:
             # by its time, however many there are: a cut file keeps the names of the whole one
             name = unique([*used, stream.time.path])[-1]
             used.append(name)
-            self.streams.append(self._timed(name, stream))
+            self.streams.append(self._timed_stream(name, stream))
         kinds = {s.absolute for s in self.streams}
         if len(kinds) > 1:
             raise FormatError(
@@ -80,9 +80,9 @@ class Clocked:
                 "of their own, or save them so",
             )
         self.absolute = kinds == {True}
-        self._begin(tree)
+        self._date_from_text(tree)
 
-    def _begin(self, tree: Tree) -> None:
+    def _date_from_text(self, tree: Tree) -> None:
         """Dates what counts from a start that a text beside the signals says, where it is declared to."""
         begun, notes = begun_beside(tree, self.streams, self.source, self.where)
         self._note(tuple(notes))
@@ -90,7 +90,7 @@ class Clocked:
             self.streams = [replace(s, begun=begun, absolute=True) for s in self.streams]
             self.absolute = True
 
-    def _timed(self, name: str, stream: Stream) -> TimedStream:
+    def _timed_stream(self, name: str, stream: Stream) -> TimedStream:
         time, unit = stream.time, None
         whole: Int1D | None = None
         absolute = False

@@ -81,10 +81,10 @@ def check(path: Path) -> Checked:
         if len(head) < 64:
             raise damaged("the file ends inside its header", where=path.name, expected="64 bytes", got=str(len(head)))
         finished = head[:8].strip() == b"MDF" and struct.unpack("<H", head[60:62])[0] == 0
-        return Checked(_walk(file, path.name, size), finished)
+        return Checked(_walk_blocks(file, path.name, size), finished)
 
 
-def _walk(file: BinaryIO, where: str, size: int) -> str | None:
+def _walk_blocks(file: BinaryIO, where: str, size: int) -> str | None:
     cut: str | None = None
     groups: dict[int, tuple[int, int]] = {}  # first channel of a group -> bytes of its record
     seen: dict[int, bytes] = {}
@@ -93,7 +93,7 @@ def _walk(file: BinaryIO, where: str, size: int) -> str | None:
         at, wanted, whose, listed = ahead.pop()
         if at in seen:
             if wanted is not None and seen[at] not in wanted:
-                raise _bad(where, at, whose, wanted, seen[at])
+                raise _wrong_kind(where, at, whose, wanted, seen[at])
             if listed:
                 raise damaged("blocks in a circle, or shared", where=f"{where} byte {at}", got=whose)
             continue
@@ -101,7 +101,7 @@ def _walk(file: BinaryIO, where: str, size: int) -> str | None:
             raise damaged("more blocks than any log has", where=where, expected=f"at most {_MOST_BLOCKS}")
         kind, length, links, body = _block(file, where, at, size, whose)
         if wanted is not None and kind not in wanted:
-            raise _bad(where, at, whose, wanted, kind)
+            raise _wrong_kind(where, at, whose, wanted, kind)
         seen[at] = kind
         if at + length > size:
             if kind not in _DATA and kind != b"##DZ":
@@ -113,7 +113,7 @@ def _walk(file: BinaryIO, where: str, size: int) -> str | None:
                 )
             cut = cut or f"data block at byte {at} needs {length} bytes, {size - at} are there: the file is cut"
         if kind == b"##DZ":
-            _packed(body, where, at, length)
+            _check_packed(body, where, at, length)
         elif kind == b"##CG":
             groups[links[1]] = struct.unpack("<II", body[24:32]) if len(body) >= 32 else (0, 0)
         elif kind == b"##CN":
@@ -182,7 +182,7 @@ def _channel(body: bytes, where: str, at: int, record: int, invalid: int) -> Non
         )
 
 
-def _packed(body: bytes, where: str, at: int, length: int) -> None:
+def _check_packed(body: bytes, where: str, at: int, length: int) -> None:
     if len(body) < 24:
         raise damaged("the file ends inside a block", where=f"{where} byte {at}", got="DZ")
     unpacked, packed = struct.unpack("<QQ", body[8:24])
@@ -195,7 +195,7 @@ def _packed(body: bytes, where: str, at: int, length: int) -> None:
         )
 
 
-def _bad(where: str, at: int, whose: str, wanted: frozenset[bytes], kind: bytes) -> FormatError:
+def _wrong_kind(where: str, at: int, whose: str, wanted: frozenset[bytes], kind: bytes) -> FormatError:
     names = " or ".join(sorted(k[2:].decode() for k in wanted))
     return damaged(
         "a link leads to a block of another kind",

@@ -57,7 +57,7 @@ class File:
             if not rows or not len(group.channels):
                 self.notes.append(f"group '{name}' holds no rows")
                 continue
-            if not self._timed(group, index):
+            if not self._has_time(group, index):
                 self.losses.append(Loss(f"{where} group '{name}'", reason="it has no time"))
                 continue
             stream = unique([*used, name])[-1]
@@ -85,7 +85,7 @@ class File:
         name = str(getattr(group.channel_group, "acq_name", "") or "").strip()
         return name or f"group {index + 1}"
 
-    def _timed(self, group: Any, index: int) -> bool:
+    def _has_time(self, group: Any, index: int) -> bool:
         master = self.inner.masters_db.get(index)
         if master is None:
             return bool(self.v4 and group.channel_group.flags & 8)

@@ -14,7 +14,7 @@ from thermodata_reader_table.mdf.library import damage_as_format_error, opened
 from thermodata_reader_table.mdf.records import group_blocks
 
 
-def _checked(path: Path) -> tuple[str | None, bool]:
+def _check_file(path: Path) -> tuple[str | None, bool]:
     with path.open("rb") as file:
         head = file.read(64)
     if head[8:9] == b"4":
@@ -26,7 +26,7 @@ def _checked(path: Path) -> tuple[str | None, bool]:
 
 def describe(path: Path, source: Source) -> Recording:
     """Streams and signals of a file. FormatError: damaged, or no channel group with rows and a time."""
-    cut, finished = _checked(path)
+    cut, finished = _check_file(path)
     with opened(path) as mdf, damage_as_format_error(path.name):
         file = File(mdf, source, path.name)
         if not file.groups:
@@ -48,7 +48,7 @@ def describe(path: Path, source: Source) -> Recording:
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The values as stored, times in ns since 1970 UTC (or since the start), and what is lost."""
-    cut, _ = _checked(path)
+    cut, _ = _check_file(path)
     rows = source.options.get("block_rows")
     with opened(path) as mdf:
         with damage_as_format_error(path.name):

@@ -31,7 +31,7 @@ def group_blocks(file: File, group: Group, rows: int | None) -> Iterator[Block |
             n = block.t_ns.size
             done, missing = done + n + absent, missing + absent
             last = int(block.t_ns[-1]) if n else last
-            yield from _split(block, rows)
+            yield from _split_rows(block, rows)
     except FormatError as error:
         failed = error.got
     if failed is not None or done != group.rows:
@@ -84,7 +84,7 @@ def _words(values: Array, encoding: str) -> Array:
     return np.array([word(v) for v in values.tolist()], object)
 
 
-def _split(block: Block, rows: int | None) -> Iterator[Block]:
+def _split_rows(block: Block, rows: int | None) -> Iterator[Block]:
     if rows is None or block.t_ns.size <= rows:
         yield block
         return

@@ -25,7 +25,7 @@ def start_of(header: Any, v4: bool, source: Source, where: str) -> Start:
         return None, []
     if int(header.time_flags) & 1:
         return _local(abs_ns, None, source, where)
-    return _sane(abs_ns, where), []
+    return _possible_start(abs_ns, where), []
 
 
 def _start_v3(header: Any, source: Source, where: str) -> Start:
@@ -41,7 +41,7 @@ def _start_v3(header: Any, source: Source, where: str) -> Start:
     if abs_ns and abs(abs_ns - local_ns) < 2_000_000_000:
         local_ns = abs_ns
     elif abs_ns and hours is not None and abs(abs_ns + hours * 3_600_000_000_000 - local_ns) < 3_700_000_000_000:
-        return _sane(abs_ns, where), []
+        return _possible_start(abs_ns, where), []
     return _local(local_ns, hours, source, where)
 
 
@@ -49,12 +49,12 @@ def _local(local_ns: int, hours: int | None, source: Source, where: str) -> Star
     """hours: the local time's from UTC, where the file says them."""
     if source.timezone is None and hours is not None:
         said = f"the start is local time, {hours:+d} h from UTC as the file says"
-        return _sane(local_ns - hours * 3_600_000_000_000, where), [said]
+        return _possible_start(local_ns - hours * 3_600_000_000_000, where), [said]
     utc, notes = local_to_utc_ns(np.array([local_ns], np.int64).view("datetime64[ns]"), source.timezone)
-    return _sane(int(utc[0]), where), notes
+    return _possible_start(int(utc[0]), where), notes
 
 
-def _sane(utc_ns: int, where: str) -> int:
+def _possible_start(utc_ns: int, where: str) -> int:
     if not 0 < utc_ns < 7_000_000_000_000_000_000:
         raise FormatError(
             "the file starts at an impossible time",

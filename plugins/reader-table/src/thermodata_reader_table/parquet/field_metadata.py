@@ -77,12 +77,12 @@ def _leaves(key: str, text: str) -> Iterator[tuple[str, str]]:
         tree = json.loads(text) if text.lstrip().startswith("{") else text
     except (ValueError, RecursionError):
         return
-    yield from _below(key, tree, 0)
+    yield from _texts_below(key, tree, 0)
 
 
-def _below(path: str, node: Any, depth: int) -> Iterator[tuple[str, str]]:
+def _texts_below(path: str, node: Any, depth: int) -> Iterator[tuple[str, str]]:
     if isinstance(node, Mapping):
         for key, inner in node.items() if depth < _DEEPEST else ():
-            yield from _below(f"{path}/{key}", inner, depth + 1)
+            yield from _texts_below(f"{path}/{key}", inner, depth + 1)
     elif isinstance(node, str | int | float) and len(str(node)) <= _LONGEST:
         yield path, str(node)

@@ -105,7 +105,7 @@ class _Walk:
             self.sizes.append((self._column, {}))
         number = 0
         while head := self._byte():
-            number = number + (head >> 4) if head >> 4 else self._signed()
+            number = number + (head >> 4) if head >> 4 else self._signed_varint()
             if head & 15 not in (_TRUE, _FALSE):  # the value stands in the head
                 self._value(head & 15, (*place, number), depth)
 
@@ -119,7 +119,7 @@ class _Walk:
     def _number(self, place: Place, _depth: int) -> None:
         self._varint()
         if place == _BYTES:
-            self._told(place, 1)
+            self._note_size(place, 1)
 
     def _words(self, _place: Place, _depth: int) -> None:
         self._past(self._varint())
@@ -150,7 +150,7 @@ class _Walk:
             where = ".".join(map(str, place))
             raise ValueError(f"the list in field {where} of its footer has items of type {head & 15}")
         if place in (_REPETITION, _DEFINITION):
-            self._told(place, size)
+            self._note_size(place, size)
         for item in range(size):
             if place == _COLUMNS:
                 self._column = item
@@ -160,7 +160,7 @@ class _Walk:
                 if not self._left:
                     raise _EnoughError
 
-    def _told(self, place: Place, size: int) -> None:
+    def _note_size(self, place: Place, size: int) -> None:
         if self.sizes:
             self.sizes[-1][1][place] = size
 
@@ -185,7 +185,7 @@ class _Walk:
             if shift > 63:
                 raise ValueError("its footer has a number of too many bytes")
 
-    def _signed(self) -> int:
+    def _signed_varint(self) -> int:
         value = self._varint()
         return (value >> 1) ^ -(value & 1)
 

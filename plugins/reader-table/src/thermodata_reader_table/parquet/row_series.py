@@ -39,11 +39,11 @@ def series_of(table: Table) -> FoundSeries:
         return first
     found = _series(table, declared, _places(min(table.file.metadata.num_rows, _FURTHEST)))
     if found.series is None:
-        _refuse(table, tag)
+        _refuse_several_names(table, tag)
     return found
 
 
-def _refuse(table: Table, tag: int) -> None:
+def _refuse_several_names(table: Table, tag: int) -> None:
     """FormatError where a column holds several names."""
     words = _words(table, tag)
     if len(words) > 1:

@@ -180,7 +180,7 @@ class Table:
             return {"float": "float32", "halffloat": "float16"}.get(str(kind), "float64")
         if pt.is_integer(kind) or pt.is_boolean(kind):
             with damage_as_format_error(self.path):
-                complete = self._complete(column)
+                complete = self._has_no_null(column)
             if not complete:
                 return "float64"
             return "bool" if pt.is_boolean(kind) else str(kind)
@@ -192,7 +192,7 @@ class Table:
         """(number, name, dtype) of those beside the time."""
         return [(i, n, self.dtype(i)) for i, n in enumerate(self.names) if i not in (self.time, *self.beside)]
 
-    def _complete(self, column: int) -> bool:
+    def _has_no_null(self, column: int) -> bool:
         meta, place = self.file.metadata, ".".join(self.places[column])
         for number in range(meta.num_row_groups):
             group = meta.row_group(number)

@@ -62,7 +62,7 @@ class FoundTime:
 def find_time_column(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     """said: what is declared of the time. QuestionError where nothing tells it, or it can be read in two ways;
     FormatError for a declared column of another type."""
-    found = _declared(columns, said) if said.get("column") is not None else _found(columns, said)
+    found = _declared_time(columns, said) if said.get("column") is not None else _found_time(columns, said)
     kind = columns.schema.field(found.column).type
     if found.beside or _is_moment(kind):
         found.unit = None
@@ -71,7 +71,7 @@ def find_time_column(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     return found
 
 
-def _declared(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
+def _declared_time(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     wanted = said["column"]
     first, others = (wanted[0], wanted[1:]) if isinstance(wanted, list | tuple) else (wanted, ())
     beside = tuple(find_column(w, columns.names, columns.where) for w in others)
@@ -80,7 +80,7 @@ def _declared(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     return FoundTime(find_column(first, columns.names, columns.where), said.get("unit"), said.get("format"), beside)
 
 
-def _found(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
+def _found_time(columns: Columns, said: Mapping[str, Any]) -> FoundTime:
     """By the types of the columns, or else as in a table of text."""
     import pyarrow.types as pt
 

@@ -57,7 +57,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             got=str(error),
             hint="open and save it in Excel or LibreOffice, or export the sheet as CSV",
         ) from None
-    names = _asked(book.sheet_names, wanted, path.name)
+    names = _sheets_asked(book.sheet_names, wanted, path.name)
     rows = {sheet: found for sheet in names if (found := _rows(book, sheet, path.name))}
     if not rows:
         raise FormatError(
@@ -70,7 +70,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
     return Book({name: Sheet(name, cells, percent.get(name, {}), from_1904) for name, cells in rows.items()}, odd)
 
 
-def _asked(names: Sequence[str], wanted: int | str | None, where: str) -> Sequence[str]:
+def _sheets_asked(names: Sequence[str], wanted: int | str | None, where: str) -> Sequence[str]:
     """The sheets that a source is read from: the one that it declares, by its name or its number from 1, or all.
     UsageError where there is none such."""
     if wanted is None:

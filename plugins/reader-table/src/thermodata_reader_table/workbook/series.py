@@ -21,12 +21,12 @@ def taken_apart(
     t_ns = stream.times.t_ns
     good = t_ns != NAT
     first = Block(stream.name, t_ns[good], {k: v[good] for k, v in stream.values.items()})
-    named = partial(_named, "" if sheet is None else f"{sheet}/")
+    named = partial(_signal_of_series, "" if sheet is None else f"{sheet}/")
     found = find_series(
         first,
         absolute=stream.times.absolute,
         declared=declared if sheet is None else declared.within(stream.values, f"{sheet}/"),
-        called=Called(str if sheet is None else partial(_named, "", stream.name), named),
+        called=Called(str if sheet is None else partial(_signal_of_series, "", stream.name), named),
     )
     series = found.series
     if series is None:
@@ -68,6 +68,6 @@ def taken_apart(
     return parts, list(found.notes), losses
 
 
-def _named(before: str, series: str, name: str) -> str:
+def _signal_of_series(before: str, series: str, name: str) -> str:
     """'T' of the series 'bed' is 'bed/T', and 'Sheet1/T' is 'Sheet1/bed/T'."""
     return f"{before}{series}/{name.removeprefix(before)}"

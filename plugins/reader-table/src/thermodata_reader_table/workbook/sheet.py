@@ -78,7 +78,7 @@ class Table:
 
     def streams(self, sheet: str | None) -> Iterator[Stream]:
         """sheet: its name where there are several."""
-        for group, times in zip(self.layout.groups, self._dated(), strict=True):
+        for group, times in zip(self.layout.groups, self._dated_times(), strict=True):
             own = group.stream != STREAM
             name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
             before = "" if sheet is None else f"{sheet}/"
@@ -130,7 +130,7 @@ class Table:
             note = named_note(headers, self.source.timezone, int(good.min()), int(good.max()))
             self.notes += [note] if note else []
 
-    def _dated(self) -> list[Stamps]:
+    def _dated_times(self) -> list[Stamps]:
         """The times of each group, from the start that stands above the rows; that can't be one of some which count
         from a start and of others which tell times of day."""
         found = [self._times.of(group, self.columns) for group in self.layout.groups]
@@ -138,7 +138,7 @@ class Table:
             return found
         zones = [stated_zone(self.layout.names[i] for i in g.time) or self.source.timezone for g in self.layout.groups]
         begin: list[Stamps] = []
-        for was, zone, above in zip(found, zones, self._above(found, zones), strict=True):
+        for was, zone, above in zip(found, zones, self._heads_above(found, zones), strict=True):
             times, further = begun(was, Heads(above, self.columns, self.repeats), self.source, zone, self.where)
             if further:  # such rows are empty, as those are that repeat the header
                 self.repeats = gone = self.repeats | frozenset(further)
@@ -147,7 +147,7 @@ class Table:
         self.begun = any(s.absolute and not was.absolute for s, was in zip(begin, found, strict=True))
         return begin
 
-    def _above(self, found: Sequence[Stamps], zones: Sequence[str | None]) -> list[Sequence[Sequence[Any]]]:
+    def _heads_above(self, found: Sequence[Stamps], zones: Sequence[str | None]) -> list[Sequence[Sequence[Any]]]:
         """The head of each group: what stands above its own columns, where that dates every one of them, as the title
         of a block does beside others, and nobody declares which counts; else all of it."""
         whole: list[Sequence[Sequence[Any]]] = [self.head] * len(found)

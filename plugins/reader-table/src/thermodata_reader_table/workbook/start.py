@@ -57,14 +57,14 @@ def begun(times: Stamps, heads: Heads, source: Source, zone: str | None, where: 
         dated = times_of_dates(local_ns.view("datetime64[ns]"), zone)
         return Stamps(dated.t_ns, True, (*known, begin.note(), *dated.notes)), []
     zoneless = local_to_utc_ns(np.array([begin.ns]).view("datetime64[ns]"), zone)[1] if begin.local else []
-    t_ns, anew = begin.utc(since_ns, zone), _anew(since_ns, heads, begin)
+    t_ns, anew = begin.utc(since_ns, zone), _further_starts(since_ns, heads, begin)
     for row, further in anew.items():
         t_ns[row:] = further.utc(since_ns[row:], zone)
     told = [*known, begin.note(), *map(anew_note, anew.values()), *zoneless]
     return Stamps(t_ns, True, tuple(told)), list(anew)
 
 
-def _anew(since_ns: Int1D, heads: Heads, begin: Begin) -> dict[int, Begin]:
+def _further_starts(since_ns: Int1D, heads: Heads, begin: Begin) -> dict[int, Begin]:
     """By their numbers the rows that say a further start, where the time of the rows behind them begins anew: a logger
     that was started again. since_ns: shape (n,)."""
     found: dict[int, Begin] = {}

@@ -56,7 +56,7 @@ def swapped_times(cells: Sequence[Any], zone: str | None, declared: str | None, 
         if order is None:
             return None
         if declared is None:
-            raise _mixed(dates, texts, order, where)
+            raise _question_of_mixed(dates, texts, order, where)
         spelled = order if declared == SWAPPED else declared
         return _of_both(cells, zone, spelled, where) if order == _declared_order(spelled) else None
     if may_be and declared is not None and _declared_order(declared) in _ORDERS and not _looks_swapped(dates):
@@ -65,7 +65,7 @@ def swapped_times(cells: Sequence[Any], zone: str | None, declared: str | None, 
         return None
     if declared is None:
         raise _exchanged(dates, where)
-    times = times_of_dates(_naive([_turned(c) for c in cells]).view("datetime64[ns]"), zone)
+    times = times_of_dates(_naive([_swapped(c) for c in cells]).view("datetime64[ns]"), zone)
     return times if declared == SWAPPED else replace(times, notes=(*times.notes, _TURNED))
 
 
@@ -76,14 +76,14 @@ def _as_shown(cells: Sequence[Any], dates: Sequence[dt.datetime], declared: str,
     first = dates[0]
     note = (
         f"all cells of the time are dates, which '{declared}' does not turn: {ASK} {first:%Y-%m-%d} or "
-        f"{_turned(first):%Y-%m-%d}? declare table: {{time: {{format: {SHOWN}}}}} where they are right, or "
+        f"{_swapped(first):%Y-%m-%d}? declare table: {{time: {{format: {SHOWN}}}}} where they are right, or "
         f"{{format: {SWAPPED}}} where a spreadsheet exchanged day and month, as in a file of texts and dates"
     )
     return replace(times, notes=(*times.notes, note))
 
 
 def _exchanged(dates: Sequence[dt.datetime], where: str) -> QuestionError:
-    shown, turned = (" to ".join(f"{d:%Y-%m-%d}" for d in ends) for ends in (_ends(dates), map(_turned, _ends(dates))))
+    shown, turned = (" to ".join(f"{d:%Y-%m-%d}" for d in ends) for ends in (_ends(dates), map(_swapped, _ends(dates))))
     return QuestionError(
         "day and month of the dates look exchanged",
         where=where,
@@ -101,7 +101,7 @@ def _ends(dates: Sequence[dt.datetime]) -> tuple[dt.datetime, dt.datetime]:
     return dates[0], dates[-1]
 
 
-def _mixed(dates: Sequence[dt.datetime], texts: Sequence[str], order: str, where: str) -> QuestionError:
+def _question_of_mixed(dates: Sequence[dt.datetime], texts: Sequence[str], order: str, where: str) -> QuestionError:
     both = f"{counted(len(dates), 'cell')} {'is a date' if len(dates) == 1 else 'are dates'}, {len(texts)} are text"
     return QuestionError(
         "the time column mixes dates and texts",
@@ -111,7 +111,7 @@ def _mixed(dates: Sequence[dt.datetime], texts: Sequence[str], order: str, where
         hint=f"declare table: {{time: {{format: {SWAPPED}}}}}, which reads files of dates alone as well, or "
         f"{{format: {order}}}: what made dates of the others exchanged day and month",
         ask=f"format of the dates: {SWAPPED} or {order}? {both} such as '{texts[0].strip()}', and no date is of a "
-        f"day above 12: their day and month are exchanged, {dates[0]:%Y-%m-%d} is {_turned(dates[0]):%Y-%m-%d}",
+        f"day above 12: their day and month are exchanged, {dates[0]:%Y-%m-%d} is {_swapped(dates[0]):%Y-%m-%d}",
         declare={"time": {"format": UNKNOWN}},
         meanwhile={"time": {"format": SWAPPED}},
     )
@@ -123,7 +123,7 @@ def _of_both(cells: Sequence[Any], zone: str | None, declared: str, where: str) 
     (form,) = find_formats([""], [[t for t in texts if t.strip()]], declared, where)
     if form.role == "time" or form.zoned:
         return None
-    ns = np.where(_naive(cells) == NAT, timestamp.parse(texts, form), _naive([_turned(c) for c in cells]))
+    ns = np.where(_naive(cells) == NAT, timestamp.parse(texts, form), _naive([_swapped(c) for c in cells]))
     return times_of_dates(ns.view("datetime64[ns]"), zone)
 
 
@@ -132,7 +132,7 @@ def _naive(cells: Sequence[Any]) -> Int1D:
     return np.array(shown, "datetime64[ns]").view(np.int64)
 
 
-def _turned(cell: Any) -> Any:
+def _swapped(cell: Any) -> Any:
     return cell.replace(month=cell.day, day=cell.month) if isinstance(cell, dt.datetime) else cell
 
 
@@ -155,7 +155,7 @@ def _declared_order(declared: str) -> str:
 def _looks_swapped(dates: Sequence[dt.datetime]) -> bool:
     """Whether rows go on from day to day only once day and month are exchanged: as they stand, each day but the first
     begins about a month behind the one before, on one day of the month."""
-    shown, turned = _naive(dates), _naive([_turned(d) for d in dates])
+    shown, turned = _naive(dates), _naive([_swapped(d) for d in dates])
     new = np.flatnonzero(shown[1:] // _DAY_NS != shown[:-1] // _DAY_NS)
     if not new.size or shown.size < _FEWEST_ROWS * (new.size + 1):  # a row a month is a sound table
         return False

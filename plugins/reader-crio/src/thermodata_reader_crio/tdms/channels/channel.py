@@ -165,7 +165,7 @@ class _Maker:
         first, own = found[0], self._index.properties.get(found[0].path, _NONE)
         clock = self._clock(full, first, own)
         scale = None if full in self._unscaled or short in self._unscaled else self._scaling(group, full, own)
-        stated = self._stated(group, short)
+        stated = self._stated_scale(group, short)
         properties = {**stated, **self._text(own)} if stated else self._text(own)
         signal = Signal(full, "", _unit(own), _dtype(first, kind), scale, properties)
         if first.part in ("re", "im"):
@@ -175,7 +175,7 @@ class _Maker:
         if len(first.kinds) > 1 and len({k.dtype for c in found for k in c.kinds}) > len(found):
             self.notes.append(f"{full}: its type changes within the file; delivered as {first.dtype}")
         if len(found) > 1:
-            return [Channel(self._joined(signal, found), short, tuple(found), clock, scale)]
+            return [Channel(self._joined_signal(signal, found), short, tuple(found), clock, scale)]
         if first.dtype == "V16":
             stamped = {**properties, "kind": "timestamp"}
             signal = replace(signal, unit=signal.unit or "ns", dtype="int64", scaling=None, properties=stamped)
@@ -191,7 +191,7 @@ class _Maker:
         )
         return None
 
-    def _joined(self, signal: Signal, found: Sequence[Column]) -> Signal:
+    def _joined_signal(self, signal: Signal, found: Sequence[Column]) -> Signal:
         """A signal that its scaling makes of several raw numbers. FormatError without one."""
         if signal.scaling is None:
             raise FormatError(
@@ -213,7 +213,7 @@ class _Maker:
             known = self._texts[id(own)] = {k: str(v) for k, v in own.items()}
         return known
 
-    def _stated(self, group: str, short: str) -> Mapping[str, str]:
+    def _stated_scale(self, group: str, short: str) -> Mapping[str, str]:
         """What its group and the file state of a channel's scale, in properties called after it: 'dZ_gain'."""
         known = self._above.get(group)
         if known is None:

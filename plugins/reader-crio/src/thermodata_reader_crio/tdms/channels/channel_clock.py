@@ -111,14 +111,14 @@ def _skip(made: _ClockPieces, index: Index, column: Column, hole: Hole, row: int
         return
     wave, missing = made.waves[-1], 0
     if hole.chunks is not None:
-        shapes = [i for i, place in enumerate(column.n) if place and _full(index, column, i, hole.layout)]
+        shapes = [i for i, place in enumerate(column.n) if place and _is_full(index, column, i, hole.layout)]
         missing = hole.chunks * int(column.n[shapes[0]]) if shapes else 0
         if missing == 0:
             return
     made.start(row, wave, made.base[-1], made.sample(row) + missing, made.suspect[-1] or hole.chunks is None)
 
 
-def _full(index: Index, column: Column, place: int, layout: int) -> bool:
+def _is_full(index: Index, column: Column, place: int, layout: int) -> bool:
     """Whether one of a column's places is in full chunks of a layout."""
     shape = index.shapes[column.shapes[place]]
     return shape.layout == layout and shape.tail is None

@@ -155,16 +155,16 @@ class _Maker:
             path,
             part,
             runs,
-            self._shared(n),
+            self._shared_array(n),
             np.array(start, np.int64),
-            self._shared(stride),
+            self._shared_array(stride),
             self._kinds[of_kind],
             runs.shapes,
             length,
             planned,
         )
 
-    def _shared(self, numbers: tuple[int, ...]) -> Int1D:
+    def _shared_array(self, numbers: tuple[int, ...]) -> Int1D:
         found = self._numbers.get(numbers)
         if found is None:
             found = self._numbers[numbers] = np.array(numbers, np.int64)
@@ -176,7 +176,7 @@ class _Maker:
         """(values that are there, values that the file announced)."""
         known = self._lengths.get((shapes, n, full))
         if known is None:
-            held = int((runs.chunks * self._shared(n)[runs.which]).sum())
+            held = int((runs.chunks * self._shared_array(n)[runs.which]).sum())
             cut = any(self.index.shapes[number].cut for number in shapes)
             known = self._lengths[shapes, n, full] = held, held + (sum(full) - sum(n) if cut else 0)
         return known

@@ -54,7 +54,7 @@ def _chunk(file: BinaryIO, begin: int, n: int, size: int, skip: int, count: int,
         return [None] * count
     if not good.all():
         return [
-            _one(file, begin + 4 * n + a, b - a) if fine else None
+            _read_text(file, begin + 4 * n + a, b - a) if fine else None
             for a, b, fine in zip(ends[:-1].tolist(), ends[1:].tolist(), good.tolist(), strict=True)
         ]
     low, high = int(ends[0]), int(ends[-1])
@@ -62,7 +62,7 @@ def _chunk(file: BinaryIO, begin: int, n: int, size: int, skip: int, count: int,
     return [_text(raw[a - low : b - low]) for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
 
 
-def _one(file: BinaryIO, at: int, size: int) -> str:
+def _read_text(file: BinaryIO, at: int, size: int) -> str:
     return _text(_exactly(file, at, size))
 
 

@@ -52,7 +52,7 @@ def _numbers(file: BinaryIO, wanted: list[Column], first: int, last: int) -> lis
         cuts = [_cut(c, a, b, memo) for c in wanted]
         if all(_long(cut, c) for cut, c in zip(cuts, wanted, strict=True)):
             for cut, c, to in zip(cuts, wanted, out, strict=True):
-                _straight(file, cut, c.kinds[0], to[a - first : b - first])
+                _read_straight(file, cut, c.kinds[0], to[a - first : b - first])
             continue
         start, end, base, places = _extents(cuts, wanted)
         if int((end - start).sum()) > _BUFFER_BYTES and b - a > 1:
@@ -118,7 +118,7 @@ def _long(cut: _Cut, column: Column) -> bool:
     return bool((cut.stride == kind.item).all()) and int(cut.n.sum()) * kind.item >= _LONG_RUN_BYTES * cut.n.size
 
 
-def _straight(file: BinaryIO, cut: _Cut, kind: Kind, out: Array) -> None:
+def _read_straight(file: BinaryIO, cut: _Cut, kind: Kind, out: Array) -> None:
     view = memoryview(out.view(np.uint8).data)
     at = 0
     for offset, count in zip(cut.offset.tolist(), (cut.n * kind.item).tolist(), strict=True):

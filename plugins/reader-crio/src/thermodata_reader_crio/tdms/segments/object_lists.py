@@ -121,14 +121,14 @@ class ObjectLists:
             if isinstance(found, RawIndex) and self._last.get(path) != found:
                 self._last[path] = found
                 self._generation += 1
-            self._set(path, properties)
+            self._set_properties(path, properties)
         self._members, self._active, self._active_id = plan.members, plan.active, plan.active_id
         if plan.spare:
             self.index.note(f"byte {plan.start}: {plan.spare} bytes of metadata that belong to no object")
         if plan.key is not None and plan.found and self._generation == before:
             self._remember(plan, plan.key)
 
-    def _set(self, path: str, properties: Properties) -> None:
+    def _set_properties(self, path: str, properties: Properties) -> None:
         known = self.index.properties.get(path)
         if known is None:
             self._set_first(path, properties)
@@ -158,7 +158,7 @@ class ObjectLists:
                 # one that is named twice changes within the list
                 self.index.properties[path] = {}
                 self._own.add(path)
-                self._set(path, properties)
+                self._set_properties(path, properties)
                 return
             clock = {name: value for name, value in properties if name in CLOCK}
             changes = [ClockChange(piece, clock)] if clock else []

@@ -38,9 +38,9 @@ class SegmentReader:
 
     def step(self, start: int) -> None:
         """Reads the segment at a position. DamageError: it can't be read, and nothing of it was taken."""
-        self._take(read_lead_in(self.file, start, self.index.size), None)
+        self._take_segment(read_lead_in(self.file, start, self.index.size), None)
 
-    def _take(self, lead: LeadIn, found: ResumePoint | None) -> None:
+    def _take_segment(self, lead: LeadIn, found: ResumePoint | None) -> None:
         index = self.index
         end = index.size if lead.end is None else min(lead.end, index.size)
         cut = lead.end is None or lead.end > index.size
@@ -114,7 +114,7 @@ class SegmentReader:
             if found.alone:
                 self.lists.forget()
             try:
-                self._take(found.lead, found)
+                self._take_segment(found.lead, found)
             except DamageError:
                 if last is not None:
                     index.pieces.restore(last.first_piece, kept)

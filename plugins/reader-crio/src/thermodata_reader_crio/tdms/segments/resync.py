@@ -44,18 +44,18 @@ class ResumePoint:
 def find(file: BinaryIO, index: Index, last: GoodSegment | None, searched: int, start: int) -> ResumePoint | None:
     """The next usable segment from byte `searched` on, where a segment was expected at `start`. last: the good one
     before it."""
-    for passed, (lead, objects) in enumerate(_candidates(file, searched, index.size)):
+    for passed, (lead, objects) in enumerate(_possible_lead_ins(file, searched, index.size)):
         alone = bool(lead.toc & META and lead.toc & NEW_LIST) and all(
             o.held is None or o.held != SAME for o in objects or ()
         )
-        missing = _missing(file, index, last, start, lead)
-        follows = lead.start <= start and _whole(index, last, lead.start)
+        missing = _missing_chunks(file, index, last, start, lead)
+        follows = lead.start <= start and _ends_with_whole_chunks(index, last, lead.start)
         if alone or follows or (missing[1] is not None and _twin(index, last, lead)):
             return ResumePoint(lead, objects, alone, passed, missing)
     return None
 
 
-def _candidates(file: BinaryIO, at: int, size: int) -> Iterator[tuple[LeadIn, list[Object] | None]]:
+def _possible_lead_ins(file: BinaryIO, at: int, size: int) -> Iterator[tuple[LeadIn, list[Object] | None]]:
     """Lead-ins whose metadata parse, and which lead to another one or to the end of the file."""
     tries = parsed = 0
     while tries < _MOST_TRIES and parsed < _MOST_PARSED:
@@ -66,7 +66,7 @@ def _candidates(file: BinaryIO, at: int, size: int) -> Iterator[tuple[LeadIn, li
         found = None
         try:
             lead = read_lead_in(file, at, size)
-            if _plausible(file, lead, size):
+            if _leads_on(file, lead, size):
                 parsed += lead.meta_bytes
                 objects = parse(read_metadata(file, lead), lead.order)[0] if lead.toc & META else None
                 found = lead, objects
@@ -91,7 +91,7 @@ def _next_tag(file: BinaryIO, at: int, size: int) -> int:
     return -1
 
 
-def _plausible(file: BinaryIO, lead: LeadIn, size: int) -> bool:
+def _leads_on(file: BinaryIO, lead: LeadIn, size: int) -> bool:
     if lead.toc & ~_KNOWN_FLAGS or lead.version not in VERSIONS or (lead.meta_bytes and not lead.toc & META):
         return False
     if lead.end is None or lead.end >= size:
@@ -100,7 +100,7 @@ def _plausible(file: BinaryIO, lead: LeadIn, size: int) -> bool:
     return file.read(len(_TAG)) == _TAG
 
 
-def _whole(index: Index, last: GoodSegment | None, end: int) -> bool:
+def _ends_with_whole_chunks(index: Index, last: GoodSegment | None, end: int) -> bool:
     """Whether the last good segment ends there with whole chunks, so that nothing is lost between."""
     if last is None or last.layout < 0 or end <= last.lead.data:
         return False
@@ -108,7 +108,7 @@ def _whole(index: Index, last: GoodSegment | None, end: int) -> bool:
     return bool(chunk) and (end - last.lead.data) % chunk == 0
 
 
-def _missing(
+def _missing_chunks(
     file: BinaryIO, index: Index, last: GoodSegment | None, start: int, lead: LeadIn
 ) -> tuple[int, int | None]:
     """(layout, chunks) of the segments between `start` and a lead-in: known where they are as long as one or more

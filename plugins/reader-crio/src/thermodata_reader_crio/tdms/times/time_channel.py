@@ -63,12 +63,12 @@ def time_channels(members: Sequence[Channel], source: Source, file: BinaryIO) ->
     dates the group, the ones whose name hints at the scale that they count by."""
     bare = [c for c in members if c.clock is None]
     found = [c for c in bare if _is_time(c, source, file)]
-    if found or len(bare) < len(members) or _declared(source, "column") is not None:
+    if found or len(bare) < len(members) or _declared_of_time(source, "column") is not None:
         return found
     return [c for c in bare if _is_number(c) and _hints_at_scale(c, file)]
 
 
-def _declared(source: Source, key: str) -> Any:
+def _declared_of_time(source: Source, key: str) -> Any:
     """What is declared of the time: under `table`, or its channel under `options`."""
     said = one_time(source.table, "table").get(key)
     return source.options.get("time", said) if key == "column" else said
@@ -77,7 +77,7 @@ def _declared(source: Source, key: str) -> Any:
 def _is_time(channel: Channel, source: Source, file: BinaryIO) -> bool:
     """Whether a channel holds the time of its neighbours: declared, of timestamps, or by its name and unit; where it
     holds text, by its name and first values."""
-    wanted = _declared(source, "column")
+    wanted = _declared_of_time(source, "column")
     if wanted is not None:
         return wanted in (channel.signal.name, channel.short)
     if channel.is_timestamp:
@@ -97,13 +97,13 @@ def _is_number(channel: Channel) -> bool:
     return kind.dtype not in ("str", "bool") and kind.scaling is None and channel.joined_by is None
 
 
-def _first(channel: Channel, file: BinaryIO) -> Float1D:
+def _first_values(channel: Channel, file: BinaryIO) -> Float1D:
     found = read(file, list(channel.columns), 0, min(_LOOKED_AT, channel.length))[0].astype(np.float64)
     return found[np.isfinite(found)]
 
 
 def _hints_at_scale(channel: Channel, file: BinaryIO) -> bool:
-    first = _first(channel, file) if names_scale(channel.short) else np.zeros(0)
+    first = _first_values(channel, file) if names_scale(channel.short) else np.zeros(0)
     return bool((np.diff(first) > 0).all()) and scale_question(channel.short, first, "") is not None
 
 
@@ -116,9 +116,9 @@ def time_channel(channel: Channel, file: BinaryIO, source: Source, above: Sequen
     name = channel.signal.name
     if channel.signal.dtype == "str":
         cells = [str(c).strip() for c in read(file, list(channel.columns), 0, channel.length)[0]]
-        told = times_of_texts(cells, source.timezone, _declared(source, "format"), name)
+        told = times_of_texts(cells, source.timezone, _declared_of_time(source, "format"), name)
         return TimeChannel(channel, None, told, tuple(told.notes))
-    unit, notes = _unit_of(channel, file, _declared(source, "unit"), above)
+    unit, notes = _unit_of(channel, file, _declared_of_time(source, "unit"), above)
 
     def load(start: int, stop: int) -> Array:
         return read(file, list(channel.columns), start, stop)[0]
@@ -140,7 +140,7 @@ def _unit_of(
     said = channel.signal.unit or split_unit(short)[1]
     written = next((text for text in (said, short) if text and (text is said or count_in(text))), None)
     written = written if written is not None and known_unit(written) is not None else unit_of_time(short)
-    first = _first(channel, file)
+    first = _first_values(channel, file)
     layers = [{k: str(v) for k, v in layer.items()} for layer in (channel.signal.properties, *above)]
     stated, notes = counted_from(short, first, written or "s", layers, name)
     if stated is not None:
@@ -151,7 +151,7 @@ def _unit_of(
     if known in SECONDS and (year := _by_size(first * SECONDS[known])) is not None:
         as_labview = ", as LabVIEW counts" if year == 1904 else ""
         taken = f"{name}: its values are taken as seconds since {year} UTC{as_labview}"
-        return check_unit(f"{_plain(known)} since {year}-01-01", name), [*notes, taken]
+        return check_unit(f"{_short_unit(known)} since {year}-01-01", name), [*notes, taken]
     ask_what_counts(short, first, written or "s", name)
     return known, notes
 
@@ -164,7 +164,7 @@ def _by_size(first_s: Float1D) -> int | None:
     return None
 
 
-def _plain(unit: str) -> str:
+def _short_unit(unit: str) -> str:
     """'s' of 'seconds'."""
     return next(u for u in ("s", "min", "h", "d", "ms", "us", "ns") if SECONDS[u] == SECONDS[unit])
 

@@ -52,13 +52,13 @@ def weeks_of_gps(members: Sequence[Channel], source: Source, file: BinaryIO) -> 
         return None
     if wanted is not None or "time" in source.options or any(c.clock is not None or c.is_timestamp for c in members):
         return None
-    likely = [c for c in members if c.signal.dtype not in ("str", "bool") and may_be_of_weeks(_named(c))]
+    likely = [c for c in members if c.signal.dtype not in ("str", "bool") and may_be_of_weeks(_name_with_unit(c))]
     rows = min([_LOOKED_AT, *(c.length for c in likely)])
     if len(likely) < 2 or not rows:
         return None
     cells = [read(file, list(c.columns), 0, rows)[0].tolist() for c in likely]
     data = [list(row) for row in zip(*cells, strict=True)]
-    pair = find_weeks([_named(c) for c in likely], data)
+    pair = find_weeks([_name_with_unit(c) for c in likely], data)
     if pair is None:
         return None
     (week, in_week), form = pair
@@ -68,6 +68,6 @@ def weeks_of_gps(members: Sequence[Channel], source: Source, file: BinaryIO) -> 
     raise question_of_weeks(names, names, f"{row[week]:.15g} {row[in_week]:.15g}", form, where)
 
 
-def _named(channel: Channel) -> str:
+def _name_with_unit(channel: Channel) -> str:
     unit = channel.signal.unit
     return f"{channel.short} [{unit}]" if unit else channel.short

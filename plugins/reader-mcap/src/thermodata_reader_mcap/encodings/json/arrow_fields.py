@@ -98,7 +98,7 @@ def unexpected(got: Any, wanted: Any, path: Path = ()) -> Iterator[Path]:
     for f in got:
         here = (*path, f.name) if f.name else path
         if f.name not in known:
-            yield from _inside(f.type, here)
+            yield from _paths_inside(f.type, here)
             continue
         a, b, inner = f.type, known[f.name], here
         while pa.types.is_list(a) and pa.types.is_list(b):
@@ -107,14 +107,14 @@ def unexpected(got: Any, wanted: Any, path: Path = ()) -> Iterator[Path]:
             yield from unexpected(a, b, inner)
 
 
-def _inside(kind: Any, path: Path) -> Iterator[Path]:
+def _paths_inside(kind: Any, path: Path) -> Iterator[Path]:
     """The paths of all values that a type holds; the first element stands for those of an array."""
     import pyarrow as pa
 
     if pa.types.is_struct(kind):
         for f in kind:
-            yield from _inside(f.type, (*path, f.name))
+            yield from _paths_inside(f.type, (*path, f.name))
     elif pa.types.is_list(kind):
-        yield from _inside(kind.value_type, (*path, 0))
+        yield from _paths_inside(kind.value_type, (*path, 0))
     elif not pa.types.is_null(kind):
         yield path

@@ -24,13 +24,13 @@ class ProtobufDecoder:
 
     def decode(self, payload: bytes) -> Any:
         """A payload as Python values; the package's own errors where it is no such message."""
-        return self._plain(self.message.FromString(payload), 0)
+        return self._as_mapping(self.message.FromString(payload), 0)
 
     def columns(self, topic: Topic, payloads: Sequence[bytes]) -> Columns:
         """Many payloads at once."""
         return message_columns(self, topic, payloads)
 
-    def _plain(self, message: Any, depth: int) -> Any:
+    def _as_mapping(self, message: Any, depth: int) -> Any:
         """Fields that have no value are None; a oneof has one field with a value at most."""
         if depth > MOST_DEPTH:
             return {}
@@ -55,7 +55,7 @@ class ProtobufDecoder:
 
     def _value(self, f: Any) -> Any:
         if f.message_type is not None:
-            return self._plain
+            return self._as_mapping
         if f.enum_type is not None and self.labels:
             names = {v.number: v.name for v in f.enum_type.values}
             return lambda v, d: names.get(v, str(v))

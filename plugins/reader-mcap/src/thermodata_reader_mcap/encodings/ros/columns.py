@@ -84,12 +84,12 @@ class RosColumns(RosDecoder):
         try:
             cursor = begin(payload, self.ros1)
             layout = Layout(cursor.order)
-            self._walk(self.types.root, cursor, (), layout, True)
+            self._walk_kind(self.types.root, cursor, (), layout, True)
         except PayloadError:
             return None
         return layout if len(payload) - cursor.at <= PADDING else None
 
-    def _walk(self, kind: str, cursor: Cursor, path: Path, layout: Layout, kept: bool) -> None:
+    def _walk_kind(self, kind: str, cursor: Cursor, path: Path, layout: Layout, kept: bool) -> None:
         if is_struct(kind):
             fields = self.types.structs[kind]
             if not fields and not self.ros1:
@@ -110,7 +110,7 @@ class RosColumns(RosDecoder):
 
     def _walk_field(self, f: Field, cursor: Cursor, path: Path, layout: Layout, kept: bool) -> None:
         if f.fixed is None and not f.sequence:
-            self._walk(f.kind, cursor, path, layout, kept)
+            self._walk_kind(f.kind, cursor, path, layout, kept)
             return
         n = self._length(cursor, layout) if f.sequence else f.fixed or 0
         if kept and n > MOST_ELEMENTS:
@@ -125,7 +125,7 @@ class RosColumns(RosDecoder):
                 layout.slots[(*path, k)] = (f.kind, at + k * size, size)
             return
         for k in range(n):
-            self._walk(f.kind, cursor, (*path, k), layout, kept and k < MOST_ELEMENTS)
+            self._walk_kind(f.kind, cursor, (*path, k), layout, kept and k < MOST_ELEMENTS)
 
     def _length(self, cursor: Cursor, layout: Layout) -> int:
         n = cursor.length()

@@ -41,11 +41,11 @@ class RosDecoder:
 
     def _field(self, f: Field, cursor: Cursor) -> Any:
         if f.fixed is None and not f.sequence:
-            return self._one(f.kind, cursor)
+            return self._value(f.kind, cursor)
         n = cursor.length() if f.sequence else f.fixed or 0
         letter = FORMATS.get(f.kind)
         if letter is None:
-            return [self._one(f.kind, cursor) for _ in range(n)]
+            return [self._value(f.kind, cursor) for _ in range(n)]
         if not n:
             return []
         size = struct.calcsize("=" + letter)
@@ -55,7 +55,7 @@ class RosDecoder:
             return cursor.data[at : at + n]
         return list(struct.unpack_from(f"{cursor.order}{n}{letter}", cursor.data, at))
 
-    def _one(self, kind: str, cursor: Cursor) -> Any:
+    def _value(self, kind: str, cursor: Cursor) -> Any:
         if is_struct(kind):
             return self._struct(kind, cursor)
         if kind == "string":

@@ -106,7 +106,7 @@ class _Parser:
         if self.peek() == ":":
             self.next()
             base = self._scoped()
-            fields += self.structs[self._found(base, scope, self.structs)]
+            fields += self.structs[self._full_name(base, scope, self.structs)]
         self.next("{")
         while self.peek() != "}":
             self._annotations()
@@ -159,7 +159,7 @@ class _Parser:
     def _number(self, scope: tuple[str, ...]) -> int:
         if self.peek().isdigit():
             return int(self.next())
-        return self.constants[self._found(self._scoped(), scope, self.constants)]
+        return self.constants[self._full_name(self._scoped(), scope, self.constants)]
 
     def _type(self, scope: tuple[str, ...]) -> Field:
         if self.peek() == "sequence":
@@ -186,11 +186,11 @@ class _Parser:
         if name in ("wstring", "wchar", "long double", "any", "fixed"):
             raise TypeTextError(f"IDL: {name} is stored in different ways by different writers")
         try:
-            return self.aliases[self._found(name, scope, self.aliases)]
+            return self.aliases[self._full_name(name, scope, self.aliases)]
         except TypeTextError:
             return Field("", "::".join((*scope, name)) if "::" not in name else name)
 
-    def _found(self, name: str, scope: tuple[str, ...], among: object) -> str:
+    def _full_name(self, name: str, scope: tuple[str, ...], among: object) -> str:
         for depth in range(len(scope), -1, -1):
             full = "::".join((*scope[:depth], name))
             if full in among:  # type: ignore[operator]
@@ -221,14 +221,15 @@ def idl_types(name: str, text: str) -> Types:
         waiting = failed
     names = {full: short(full) for full in parser.structs}
     structs = {
-        names[full]: tuple(_named(f, full, parser, names) for f in fields) for full, fields in parser.structs.items()
+        names[full]: tuple(_with_full_name(f, full, parser, names) for f in fields)
+        for full, fields in parser.structs.items()
     }
     for built_in in ("Time", "Duration"):
         structs.setdefault(f"builtin_interfaces/{built_in}", (Field("sec", "i4"), Field("nanosec", "u4")))
     return Types(short(name), resolved(structs))
 
 
-def _named(f: Field, inside: str, parser: _Parser, names: dict[str, str]) -> Field:
+def _with_full_name(f: Field, inside: str, parser: _Parser, names: dict[str, str]) -> Field:
     """A field whose type is known by the name that `structs` has; aliases from later files are replaced."""
     if not is_struct(f.kind):
         return f

@@ -18,7 +18,7 @@ class PackageDecoder:
 
     def decode(self, payload: bytes) -> Any:
         """A payload as Python values; the package's own errors where it is no such message."""
-        return _plain(self.made(payload))
+        return _as_python(self.made(payload))
 
 
 def package_decoder(schema: Schema) -> PackageDecoder | None:
@@ -34,14 +34,14 @@ def package_decoder(schema: Schema) -> PackageDecoder | None:
     return None if made is None else PackageDecoder(made)
 
 
-def _plain(value: Any) -> Any:
+def _as_python(value: Any) -> Any:
     """A message as Python values: objects with slots become dicts."""
     if isinstance(value, bool | int | float | str) or value is None:
         return value
     if isinstance(value, bytes | bytearray | memoryview):
         return list(value) if len(value) <= MOST_ELEMENTS else bytes(value)
     if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
+        return [_as_python(v) for v in value]
     if hasattr(value, "tolist"):
         return value.tolist()
-    return {name: _plain(getattr(value, name)) for name in value.__slots__}
+    return {name: _as_python(getattr(value, name)) for name in value.__slots__}

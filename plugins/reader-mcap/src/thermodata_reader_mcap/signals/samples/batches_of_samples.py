@@ -45,7 +45,7 @@ class Samples:
         """The times of a message's samples [ns since 1970], shape (n,); None where it is none."""
         value = value_at(message, self.time)
         if not self.step:
-            return dated(_listed(value))
+            return dated(_as_list(value))
         first, step = dated([value]), value_at(message, self.step)
         lengths = Counter(len(v) for a in self.arrays if isinstance(v := value_at(message, a), list) and are_numbers(v))
         if first is None or not lengths or not is_number(step) or step <= 0:
@@ -60,7 +60,7 @@ class Samples:
         t_ns = self.times(message)
         if t_ns is None or not 0 < t_ns.size <= _MOST:
             return None
-        every = {a: _listed(value_at(message, a)) for a in self.arrays}
+        every = {a: _as_list(value_at(message, a)) for a in self.arrays}
         found = {a: v for a, v in every.items() if len(v) == t_ns.size}
         return (t_ns, found) if found else None
 
@@ -74,14 +74,14 @@ def samples_of(message: Any, clocks: Sequence[Samples]) -> tuple[list[dict[str, 
     if not found:
         return None
     taken = {k for one, (_, arrays) in found for k in (one.own_time, one.step, *arrays)}
-    once = _without(message, taken)
+    once = _without_keys(message, taken)
     words = _words(once)
     t_ns, places = _rows([held[0] for _, held in found])
     rows = [once, *(deepcopy(words) for _ in range(t_ns.size - 1))]
     for (_, (_, arrays)), own in zip(found, places, strict=True):
         for keys, values in arrays.items():
             for place, value in zip(own, values, strict=True):
-                _put(rows[place], keys, value)
+                _put_at(rows[place], keys, value)
     return rows, t_ns
 
 
@@ -90,13 +90,13 @@ def _rows(times: Sequence[Int1D]) -> tuple[Int1D, list[list[int]]]:
     what several have at one time is one row, what one has twice then are two."""
     if len(times) == 1:
         return times[0], [list(range(times[0].size))]
-    keyed = [list(_numbered(t_ns.tolist())) for t_ns in times]
+    keyed = [list(_numbered_times(t_ns.tolist())) for t_ns in times]
     rows = sorted({key for keys in keyed for key in keys})
     places = {key: place for place, key in enumerate(rows)}
     return np.array([t for t, _ in rows], np.int64), [[places[key] for key in keys] for keys in keyed]
 
 
-def _numbered(times: Sequence[int]) -> Iterator[tuple[int, int]]:
+def _numbered_times(times: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Each time with how many of the same stand before it."""
     before = Counter[int]()
     for t in times:
@@ -167,7 +167,7 @@ def value_at(message: Any, keys: Keys) -> Any:
     return message
 
 
-def _listed(value: Any) -> list[Any]:
+def _as_list(value: Any) -> list[Any]:
     """An array, or a single value, as some write one sample, as an array of it; nothing of none."""
     return value if isinstance(value, list) else [] if value is None or isinstance(value, Mapping) else [value]
 
@@ -185,14 +185,14 @@ def decoded(payload: bytes) -> Any:
         return None
 
 
-def _without(message: Any, taken: set[Keys], inside: Keys = ()) -> dict[str, Any]:
+def _without_keys(message: Any, taken: set[Keys], inside: Keys = ()) -> dict[str, Any]:
     """A message without what some keys lead to, and without objects that are empty then."""
     made = dict[str, Any]()
     for key, value in message.items():
         keys = (*inside, str(key))
         if keys in taken or value == []:
             continue
-        left = _without(value, taken, keys) if isinstance(value, Mapping) else value
+        left = _without_keys(value, taken, keys) if isinstance(value, Mapping) else value
         if left != {} or value == {}:
             made[str(key)] = left
     return made
@@ -204,7 +204,7 @@ def _words(message: Mapping[str, Any]) -> dict[str, Any]:
     return {k: v for k, v in made.items() if v != {}}
 
 
-def _put(message: dict[str, Any], keys: Keys, value: Any) -> None:
+def _put_at(message: dict[str, Any], keys: Keys, value: Any) -> None:
     for key in keys[:-1]:
         message = message.setdefault(key, {})
     message[keys[-1]] = value

@@ -77,7 +77,7 @@ def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
     objects = list(dict.fromkeys(keys for m in messages[:_FORMS] for keys in _objects(m)))
     timed: dict[Keys, Samples] = {}
     for inside in objects:
-        listed = [a for a in arrays if calls_times(a) and _around(a) == inside]
+        listed = [a for a in arrays if calls_times(a) and _object_around(a) == inside]
         one = next((c for c in (_of_times(t, arrays, messages) for t in listed) if c is not None), None)
         timed |= {} if one is None else {inside: one}
     taken = {k for o, one in timed.items() for k in (one.time, *one.arrays) if o and k[: len(o)] == o}
@@ -87,7 +87,7 @@ def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
     times = {c.time for c in clocks}
     made: list[Samples] = []
     for one in clocks:
-        own = tuple(a for a in one.arrays if a not in times and _nearest(a, clocks) is one)
+        own = tuple(a for a in one.arrays if a not in times and _nearest_clock(a, clocks) is one)
         if own:
             made.append(replace(one, arrays=own))
     wanted = {a for c in made for a in c.arrays}
@@ -99,17 +99,17 @@ def _is_filled(value: Any) -> bool:
     return isinstance(value, list) and bool(value)
 
 
-def _around(keys: Keys) -> Keys:
+def _object_around(keys: Keys) -> Keys:
     """The object that a time is of: of 'data.t' and of 'data.time.values' it is 'data'."""
     return Samples(keys).own_time[:-1]
 
 
-def _nearest(array: Keys, clocks: Sequence[Samples]) -> Samples:
+def _nearest_clock(array: Keys, clocks: Sequence[Samples]) -> Samples:
     """The clock of an array, of those that it fits: that which stands beside it, or around it."""
     fitting = [c for c in clocks if array in c.arrays]
 
     def common(one: Samples) -> int:
-        inside = one.time[:-1] if one.step else _around(one.time)
+        inside = one.time[:-1] if one.step else _object_around(one.time)
         return sum(1 for _ in _while_same(inside, array))
 
     return max(fitting, key=common)

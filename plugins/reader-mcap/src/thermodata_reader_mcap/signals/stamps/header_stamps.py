@@ -36,15 +36,15 @@ def stamps(
         missing |= bad
         parts.append(np.where(bad, 0, column))
     if len(parts) == 2:
-        whole = _scaled(parts[0], 10**9) + parts[1].astype(np.uint64)
+        whole = _in_ns(parts[0], 10**9) + parts[1].astype(np.uint64)
     else:
-        whole = _scaled(parts[0], options.scale or 1)
+        whole = _in_ns(parts[0], options.scale or 1)
     if whole.size and whole.max() > _DATED:
         missing |= whole == 0  # 1970, beside times of today: not set
     return np.where(missing, logs, whole), missing
 
 
-def _scaled(column: Array, scale: int) -> U64:
+def _in_ns(column: Array, scale: int) -> U64:
     """Numbers of a unit as nanoseconds; whole parts exactly."""
     if column.dtype.kind != "f":
         exact: U64 = column.astype(np.uint64) * np.uint64(scale)

@@ -39,7 +39,7 @@ def stamps_note(
     if found is None:
         name, unit, away = _of_numbers(paths, rows, relative)
     if relative:
-        return _dated(topic.name, name, unit, away)
+        return _note_of_dates(topic.name, name, unit, away)
     spread = int(np.ptp(np.array(away, np.float64))) if away else 0
     if spread <= _APART_NS:
         return None
@@ -50,7 +50,7 @@ def stamps_note(
     )
 
 
-def _dated(topic: str, name: str, unit: str | None, away: Sequence[float]) -> str | None:
+def _note_of_dates(topic: str, name: str, unit: str | None, away: Sequence[float]) -> str | None:
     """A note where the stamps of a recording whose log times have no date have one."""
     if not away or -max(away) < _DATED_NS:
         return None
@@ -79,7 +79,7 @@ def first_stamp(options: Options, batches: Mapping[Channel, Batch], made: Mappin
     found: list[int] = []
     for _, message in _messages(batches, made):
         for paths in options.stamps():
-            parts = [_read(message, path) for path in paths]
+            parts = [_value_at(message, path) for path in paths]
             if all(isinstance(part, int | float) and 0 <= part < _MOST for part in parts) and any(parts):
                 scales = (10**9, 1) if len(parts) == 2 else (options.scale or 1,)
                 found.append(sum(int(part * scale) for part, scale in zip(parts, scales, strict=True)))
@@ -122,7 +122,7 @@ def _of_pair(
     """(name, None, how far the log times are behind) of a stamp in seconds and nanoseconds."""
     away: list[float] = []
     for log, message in rows:
-        whole, rest = _read(message, (*path, parts[0])), _read(message, (*path, parts[1]))
+        whole, rest = _value_at(message, (*path, parts[0])), _value_at(message, (*path, parts[1]))
         if isinstance(whole, int) and isinstance(rest, int) and 0 < whole < _MOST and abs(rest) < _MOST:
             away.append(log - whole * 10**9 - rest)
     return _name(path), None, away
@@ -152,7 +152,7 @@ def _of_numbers(
 
 def _numbers(path: Path, messages: Sequence[Any]) -> Array:
     """The numbers that a field holds, those of messages that have one, as floats."""
-    found = [_read(message, path) for message in messages]
+    found = [_value_at(message, path) for message in messages]
     some = [v for v in found if isinstance(v, int | float) and not isinstance(v, bool)]
     return np.array([v for v in some if isinstance(v, float) or abs(v) < _MOST], np.float64)
 
@@ -161,7 +161,7 @@ def _name(path: Path) -> str:
     return ".".join(map(str, path))
 
 
-def _read(message: Any, path: Path) -> Any:
+def _value_at(message: Any, path: Path) -> Any:
     try:
         for part in path:
             message = message[part]

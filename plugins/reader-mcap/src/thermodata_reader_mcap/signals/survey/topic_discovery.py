@@ -85,7 +85,7 @@ def discover(
         exact &= _survey(one, samples.get(channel, ()), budget // len(made), objects, others)
     wrapped = objects.total < others.total
     survey = others if wrapped else objects
-    leaves, notes = find_leaves(name, survey, _declared(list(made.values())), exact)
+    leaves, notes = find_leaves(name, survey, _first_hint(list(made.values())), exact)
     if not leaves:
         return None, notes
     chosen = {leaf.path for leaf in leaves}
@@ -94,7 +94,7 @@ def discover(
     return Topic(name, leaves, wrapped, frozenset(survey.long), frozenset(skipped)), notes
 
 
-def _declared(decoders: list[Decoder]) -> Declared:
+def _first_hint(decoders: list[Decoder]) -> Declared:
     every = [hints(d) for d in decoders]
 
     def first(path: Path) -> Hint | None:
@@ -118,7 +118,7 @@ def _survey(one: Decoder, payloads: Sequence[bytes], budget: int, objects: Surve
         part = chosen[begin : begin + rows]
         if not (quick and len(part) > 16 and _by_arrow(part, objects)):
             for payload in part:
-                _one(one, payload, objects, others)
+                _survey_message(one, payload, objects, others)
     return step == 1
 
 
@@ -139,7 +139,7 @@ def _by_arrow(payloads: Sequence[bytes], into: Survey) -> bool:
     return True
 
 
-def _one(one: Decoder, payload: bytes, objects: Survey, others: Survey) -> None:
+def _survey_message(one: Decoder, payload: bytes, objects: Survey, others: Survey) -> None:
     try:
         message: Any = one.decode(payload)
     except Exception:  # counted and named when it is read

@@ -47,14 +47,14 @@ def units_said(
     notes: list[str] = []
     for name, topic in topics.items():
         own = {c: one for c, one in readers.items() if c.topic == name and c in batches}
-        told, more = _told(topic, batches, own, kept)
-        made[name] = replace(topic, leaves=_with(topic.leaves, told))
+        told, more = _units_of_topic(topic, batches, own, kept)
+        made[name] = replace(topic, leaves=_with_units(topic.leaves, told))
         columns += told.values()
         notes += more
     return UnitsSaid(made, tuple(columns), tuple(notes))
 
 
-def _told(
+def _units_of_topic(
     topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], kept: Collection[Path]
 ) -> tuple[dict[str, UnitColumn], list[str]]:
     """Of one topic: (field -> which says its unit, notes). Several units that don't convert into each other, or may be
@@ -106,7 +106,7 @@ def _is_bare(leaf: Leaf) -> bool:
     return leaf.unit is None and named is None and not is_time_header(last) and last.casefold() not in _NO_READING
 
 
-def _with(leaves: Sequence[Leaf], told: Mapping[str, UnitColumn]) -> tuple[Leaf, ...]:
+def _with_units(leaves: Sequence[Leaf], told: Mapping[str, UnitColumn]) -> tuple[Leaf, ...]:
     of = {said.column: name for name, said in told.items()}
     # what is converted is whole no more, with the elements of its array
     converted = {any_element(leaf.path) for leaf in leaves if leaf.name in told and told[leaf.name].others}

@@ -46,7 +46,7 @@ class UnitsOfChannels:
         """The topic with the units that its channels declare: of several, the first one's."""
         own = self.units.setdefault(topic.name, {})
         for channel, one in made.items():
-            for name, unit in _declared(channel, one, topic).items():
+            for name, unit in _declared_units(channel, one, topic).items():
                 own.setdefault(name, unit)
         floats = {o.name for c, one in made.items() for o in self.others(c, one, topic)}
         leaves = [replace(leaf, unit=leaf.unit or own.get(leaf.name)) for leaf in topic.leaves]
@@ -57,7 +57,7 @@ class UnitsOfChannels:
         known = self._known.get(channel)
         if known is None:
             own = self.units.get(topic.name, {})
-            found = _declared(channel, one, topic) if own else {}
+            found = _declared_units(channel, one, topic) if own else {}
             pairs = [(n, u, own[n]) for n, u in found.items() if n in own and normal_unit(u) != normal_unit(own[n])]
             known = self._known[channel] = tuple(
                 OtherUnit(n, u, w, linear_conversion(u, w) if converts_here(u, w) else None) for n, u, w in pairs
@@ -93,7 +93,7 @@ def in_units_of_topic(part: Columns, others: tuple[OtherUnit, ...]) -> Columns:
     return part
 
 
-def _declared(channel: Channel, one: Decoder, topic: Topic) -> dict[str, str]:
+def _declared_units(channel: Channel, one: Decoder, topic: Topic) -> dict[str, str]:
     """Field -> its unit by the channel's schema, or by its metadata."""
     numbers = [leaf for leaf in topic.leaves if leaf.dtype not in ("str", "bool")]
     told = hints(one)

@@ -90,7 +90,7 @@ class _Walk:
         for name in names:
             try:
                 with damaged(f"{self.where} variable '{name}'"):
-                    variables[name] = self.node(_own(self.file, name), 0)
+                    variables[name] = self.node(_own_member(self.file, name), 0)
             except FormatError as error:
                 losses.append(Loss(f"{self.where} variable '{name}'", reason=f"a damaged variable: {error.got}"))
         return Tree(variables, tuple(losses), True if not losses else None)
@@ -101,10 +101,10 @@ class _Walk:
         # two references to one object are two names of it
         key = h5py.h5o.get_info(item.id).addr
         if key not in self.known:
-            self.known[key] = self._made(item, depth)
+            self.known[key] = self._new_node(item, depth)
         return self.known[key]
 
-    def _made(self, item: Any, depth: int) -> Node:
+    def _new_node(self, item: Any, depth: int) -> Node:
         import h5py
 
         self.nodes += 1
@@ -143,7 +143,7 @@ class _Walk:
         if order is not None:
             wanted = [b"".join(bytes(c) for c in letters).decode("utf-8", "replace") for letters in order]
             names = [n for n in wanted if n in names] + [n for n in names if n not in wanted]
-        fields = {n: _own(group, n) for n in names}
+        fields = {n: _own_member(group, n) for n in names}
         if fields and all(_holds_references(f) and "MATLAB_class" not in f.attrs for f in fields.values()):
             columns = {n: self._cells(f, depth).items for n, f in fields.items()}
             if len({len(c) for c in columns.values()}) != 1:
@@ -168,7 +168,7 @@ class _Walk:
         )
 
 
-def _own(group: Any, name: str) -> Any:
+def _own_member(group: Any, name: str) -> Any:
     """A member of a group. ValueError for a link into another file: what is read must stand in the bytes that the store
     knows by their hash, and in the campaign's folder."""
     import h5py

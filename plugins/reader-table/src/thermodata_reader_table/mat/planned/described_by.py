@@ -21,7 +21,7 @@ def settle_lists(plan: Plan, scope: Scope) -> None:
             fits = [
                 path.rsplit("/", 1)[-1]
                 for path, node in scope.matrices
-                if len(x.lines) in (node.rows, node.columns) and not _own(lists, path)
+                if len(x.lines) in (node.rows, node.columns) and not _is_listed(lists, path)
             ]
             lists.remove(x)
             if len(fits) == 1 and sizes[len(x.lines)] == 1:
@@ -34,7 +34,7 @@ def settle_lists(plan: Plan, scope: Scope) -> None:
                 )
 
 
-def _own(lists: list[Listed], path: str) -> bool:
+def _is_listed(lists: list[Listed], path: str) -> bool:
     return any(x.of == path.rsplit("/", 1)[-1] for x in lists)
 
 

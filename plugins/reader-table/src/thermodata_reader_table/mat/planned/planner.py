@@ -62,7 +62,7 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
             hint="save the measured variables alone",
         )
     if not any(s.columns for s in plan.streams):
-        raise _nothing(plan, variables)
+        raise _nothing_found(plan, variables)
     plan.streams = [s for s in plan.streams if s.columns]
     if plan.stated:
         for stream in plan.streams:
@@ -98,7 +98,7 @@ def _scope(plan: Plan, fields: Mapping[str, Node], path: str, above: Scope | Non
                     lose_object(plan, f"{where}/{name}", node)
 
 
-def _nothing(plan: Plan, variables: Mapping[str, Node]) -> FormatError:
+def _nothing_found(plan: Plan, variables: Mapping[str, Node]) -> FormatError:
     shown = ", ".join(f"{k} ({_size(v)})" for k, v in list(variables.items())[:12]) or "nothing readable"
     if plan.losses and all(isinstance(v, Odd | Text) for v in variables.values()):
         return FormatError(

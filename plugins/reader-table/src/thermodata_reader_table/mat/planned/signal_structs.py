@@ -114,10 +114,10 @@ def as_record(struct: Struct) -> Record | None:
         one_text(unit[1]) if unit else None,
         one_text(x_unit[1]) if x_unit else None,
         tuple(f[0] for f in (title, unit, x_unit) if f and isinstance(f[1], Numbers) and f[1].size),
-        {k: said for k, v in fields.items() if states_scale(k) and (said := _said(v)) is not None},
+        {k: said for k, v in fields.items() if states_scale(k) and (said := _text_or_number(v)) is not None},
     )
 
 
-def _said(node: Node) -> str | None:
+def _text_or_number(node: Node) -> str | None:
     number = one_number(node)
     return one_text(node) if number is None else f"{number:.12g}"

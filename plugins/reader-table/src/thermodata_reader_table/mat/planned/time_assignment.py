@@ -28,9 +28,10 @@ def assign_columns(plan: Plan, scope: Scope) -> None:
     """Each column of the scope to the time that its name or its length points to."""
     given = scope.unit_of
     scope.times = [
-        a if a.unit or a.texts else replace(a, unit=given.get(_last(a.path)) or scope.time_unit) for a in scope.times
+        a if a.unit or a.texts else replace(a, unit=given.get(_last_part(a.path)) or scope.time_unit)
+        for a in scope.times
     ]
-    scope.columns = [c if c.unit else replace(c, unit=given.get(_last(c.name))) for c in scope.columns]
+    scope.columns = [c if c.unit else replace(c, unit=given.get(_last_part(c.name))) for c in scope.columns]
     left: list[Column] = []
     for column in scope.columns:
         vector = _time_of(plan, scope, column.name, column.length)
@@ -130,5 +131,5 @@ def assign_record(plan: Plan, scope: Scope, path: str, record: Record) -> None:
         )
 
 
-def _last(path: str) -> str:
+def _last_part(path: str) -> str:
     return path.rsplit("/", 1)[-1]

@@ -116,25 +116,25 @@ def _one_text(plan: Plan, scope: Scope, name: str, path: str, text: str) -> None
     if say.names_time_unit(name, text):
         scope.time_unit = text
     if say.names_units(name):
-        scope.units.append(_listed(scope, name, [text]))
+        scope.units.append(_list_of_variable(scope, name, [text]))
     elif say.names_names(name):
-        scope.names.append(_listed(scope, name, [text]))
+        scope.names.append(_list_of_variable(scope, name, [text]))
     _state(plan, path, scope.properties[name])
 
 
 def _list_of_texts(plan: Plan, scope: Scope, name: str, path: str, lines: list[str]) -> None:
     """Units, times or names of columns, else a column of words."""
     if say.names_units(name) or say.unit_of(name, scope.known) in scope.known:
-        scope.units.append(_listed(scope, name, lines))
+        scope.units.append(_list_of_variable(scope, name, lines))
     elif (say.names_time(name) and plan.wanted is None) or plan.wanted in (path, name):
         scope.times.append(TimeVector(path, len(lines), texts=tuple(lines)))
     elif say.names_names(name) or say.listed_of(name, scope.known) in scope.known:
-        scope.names.append(_listed(scope, name, lines))
+        scope.names.append(_list_of_variable(scope, name, lines))
     else:
         scope.columns.append(Column(path, None, "str", len(lines), partial(_part, np.array(lines, object))))
 
 
-def _listed(scope: Scope, name: str, lines: list[str]) -> Listed:
+def _list_of_variable(scope: Scope, name: str, lines: list[str]) -> Listed:
     return Listed(name, say.listed_of(name, scope.known), tuple(lines))
 
 

@@ -59,15 +59,15 @@ class MatrixParser:
         if start == stop:
             return "", self._empty()
         parts = self.elements(start, stop)
-        flags = self._ints(self._next(parts), (5, 6), 2)
+        flags = self._ints(self._next_element(parts), (5, 6), 2)
         kind, bits = int(flags[0]) & 0xFF, int(flags[0]) >> 8 & 0xFF
         if kind == 17:
-            name, _, label = (self._latin(self._next(parts)) for _ in range(3))
+            name, _, label = (self._latin(self._next_element(parts)) for _ in range(3))
             return name, Odd(label or "object")
-        dims = [int(d) for d in self._ints(self._next(parts), (5,), None)]
+        dims = [int(d) for d in self._ints(self._next_element(parts), (5,), None)]
         if len(dims) < 2 or min(dims) < 0:
             raise DamagedError(f"dimensions {dims[:4]}")
-        name = self._latin(self._next(parts))
+        name = self._latin(self._next_element(parts))
         count = int(np.prod(dims, dtype=object))
         if kind in _CLASS:
             return name, self._numbers(parts, dims, count, _CLASS[kind], bits)
@@ -79,7 +79,7 @@ class MatrixParser:
             return name, self._struct(parts, count, depth, kind)
         return name, Odd({5: "sparse matrix", 16: "function_handle"}.get(kind, f"object of class {kind}"))
 
-    def _next(self, parts: Iterator[Element]) -> Element:
+    def _next_element(self, parts: Iterator[Element]) -> Element:
         found = next(parts, None)
         if found is None:
             raise DamagedError("ends too early")
@@ -116,7 +116,7 @@ class MatrixParser:
             return raw.decode("cp1252", "backslashreplace")
 
     def _numbers(self, parts: Iterator[Element], dims: list[int], count: int, dtype: str, bits: int) -> Node:
-        flat = self._array(self._next(parts))
+        flat = self._array(self._next_element(parts))
         if flat.size != count:
             raise DamagedError(f"{flat.size} numbers for {'x'.join(map(str, dims))}")
         wide = np.dtype(dtype).kind == "f"
@@ -181,7 +181,7 @@ class MatrixParser:
         if count > MAX_NODES:
             raise DamagedError(f"{count} parts")
         for _ in range(count):
-            element = self._next(parts)
+            element = self._next_element(parts)
             if element.kind != MATRIX:
                 raise DamagedError(f"an element of type {element.kind} in a cell or struct")
             found.append(self.matrix(element.start, element.stop, depth + 1)[1])
@@ -191,9 +191,9 @@ class MatrixParser:
 
     def _struct(self, parts: Iterator[Element], count: int, depth: int, kind: int) -> Node:
         if kind == 3:
-            return Odd(self._latin(self._next(parts)) or "object")
-        length = int(self._ints(self._next(parts), (5,), 1)[0])
-        names_at = self._next(parts)
+            return Odd(self._latin(self._next_element(parts)) or "object")
+        length = int(self._ints(self._next_element(parts), (5,), 1)[0])
+        names_at = self._next_element(parts)
         raw = bytes(self.data[names_at.start : names_at.stop])
         if length < 1 or len(raw) % length or len(raw) > 1 << 22:
             raise DamagedError(f"field names of {length} bytes in {len(raw)}")
