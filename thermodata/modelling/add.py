@@ -63,7 +63,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
         of_one = found if found is not None and [found.response] == parent.result.responses else None
         said = beside_foretold(of_one, grown.names, refined.lags)
         spec, notes = refined.spec, [*notes, *refined.notes, *filter(None, [said])]
-    added, of_response = _added(parent.spec, spec, old.data.channels)
+    added, of_response = _ids_and_notes(parent.spec, spec, old.data.channels)
     alike = on_the_same_tests(parent.spec, spec, old.data, before)
     notes = [*notes, *since, *of_response, *_twins(found, grown.names), *alike]
     result = fit_once(store, spec, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
@@ -131,7 +131,7 @@ def _twins(found: Diagnosis | None, names: Sequence[str]) -> list[str]:
     ]
 
 
-def _added(parent: Model, grown: Model, channels: Mapping[str, Described]) -> tuple[list[str], list[str]]:
+def _ids_and_notes(parent: Model, grown: Model, channels: Mapping[str, Described]) -> tuple[list[str], list[str]]:
     """(the ids of what is new; what is to be known of channels that are responses and drive it)."""
     had = term_ids(parent.effects)
     new = [(i, e) for i, e in zip(term_ids(grown.effects), grown.effects, strict=True) if i not in had]

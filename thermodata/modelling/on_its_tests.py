@@ -47,8 +47,8 @@ def _tests_of(effect: object) -> list[str]:
 def _comes_out_again(kept: FitResult, now: dict[str, Parameter]) -> bool:
     """Whether all parameters are those of the store."""
     there = {n: p.value for n, p in kept.parameters.items()}
-    return there.keys() == now.keys() and all(_same(v, now[n].value) for n, v in there.items())
+    return there.keys() == now.keys() and all(_are_close(v, now[n].value) for n, v in there.items())
 
 
-def _same(a: float | None, b: float | None) -> bool:
+def _are_close(a: float | None, b: float | None) -> bool:
     return a == b if a is None or b is None else math.isclose(a, b, rel_tol=SAME, abs_tol=1e-9)

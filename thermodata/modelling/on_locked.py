@@ -52,7 +52,9 @@ def _of_response(store: Store, model: Loaded, response: FittedResponse) -> tuple
     before = kept_answer(store, model.identity, question)
     shown = {} if before is None else {(t.campaign, t.test): t for t in LockedError.model_validate_json(before).tests}
     new = [(row.campaign, row.test) for row in rows if shown.get((row.campaign, row.test)) != row]
-    count_locked_look(store, model.identity, new, f"the error of the model as it stands{_of(model, response)}")
+    count_locked_look(
+        store, model.identity, new, f"the error of the model as it stands{_response_named(model, response)}"
+    )
     found = LockedError(
         model=model.identity,
         name=model.fitted.spec.name,
@@ -108,6 +110,6 @@ def _row(response: FittedResponse, test: TestData) -> TestLocked:
     )
 
 
-def _of(model: Loaded, response: FittedResponse) -> str:
+def _response_named(model: Loaded, response: FittedResponse) -> str:
     """What a look says of the response, of a model with several."""
     return f" ({response.name})" if len(model.fitted.responses) > 1 else ""

@@ -52,7 +52,7 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     spec = as_chosen(parent, old.data).model_copy(update={"effects": effects})
     notes = [f"removed: {', '.join(gone)}"]
     chain = model_chain(store, parent.model)
-    earlier = [m for m in chain[:-1] if _alike(m.spec, spec)]
+    earlier = [m for m in chain[:-1] if _have_same_effects(m.spec, spec)]
     if earlier:
         spec = earlier[-1].spec
         notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
@@ -82,7 +82,7 @@ def stays(chain: Sequence[StoredModel], of: str, kept: Sequence[str | None]) -> 
     return []
 
 
-def _alike(one: Model, other: Model) -> bool:
+def _have_same_effects(one: Model, other: Model) -> bool:
     """Whether two versions have the same effects, however their ids are written."""
     mine, theirs = (
         [(i, e.model_copy(update={"id": None})) for i, e in zip(term_ids(m.effects), m.effects, strict=True)]

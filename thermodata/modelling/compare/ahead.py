@@ -96,7 +96,7 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
     for response in fitted.responses:
         apart = [t for t in fitted.tests(data, "verification") if _took_no_part(fitted, response, t, machines)]
         if len(apart) >= ENOUGH:
-            left[response.name] = _left([(response, t) for t in apart], reach[response.name], refitted=False)
+            left[response.name] = _unseen_error([(response, t) for t in apart], reach[response.name], refitted=False)
     if len(left) < len(fitted.responses):
         try:
             unseen = list(LeftOut(_of_own_machine(fitted, data, machines), data).unseen(fitted.spec))
@@ -106,23 +106,23 @@ def ahead(fitted: FittedModel, data: Dataset, *, kept: bool = False) -> Ahead:
             own = [
                 (r, t)
                 for r, t in unseen
-                if r.name == name and t.key not in _seen(r) and _is_one_of(t.machine, machines)
+                if r.name == name and t.key not in _tests_seen(r) and _is_one_of(t.machine, machines)
             ]
             if len(own) >= FEWEST:
-                left[name] = _left(own, reach[name], refitted=True)
+                left[name] = _unseen_error(own, reach[name], refitted=True)
     few = f"fewer than {FEWEST} open tests say what the model leaves on one that it has not seen"
     return Ahead(left, scale, machines, None if left else few)
 
 
 def _took_no_part(fitted: FittedModel, response: FittedResponse, test: TestData, machines: Sequence[str]) -> bool:
-    seen = any(test.key in _seen(r) for r in fitted.responses) or test.key in fitted.overlaps
+    seen = any(test.key in _tests_seen(r) for r in fitted.responses) or test.key in fitted.overlaps
     return not seen and _is_one_of(test.machine, machines) and counts(response, test)
 
 
-def _seen(response: FittedResponse) -> frozenset[Key]:
+def _tests_seen(response: FittedResponse) -> frozenset[Key]:
     """The tests that its parameters come from, those of a model inside too."""
     inside = [t.effect.response for t in response.terms if isinstance(t.effect, ModelOutput)]
-    return response.fitted_on.union(*map(_seen, inside))
+    return response.fitted_on.union(*map(_tests_seen, inside))
 
 
 def _is_one_of(machine: str, machines: Sequence[str]) -> bool:
@@ -143,8 +143,8 @@ def _reach(response: FittedResponse, tests: Iterable[TestData]) -> float:
     return max(map(float, sizes), default=0.0)
 
 
-def _left(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> UnseenError:
-    found = [_unseen(response, test) for response, test in unseen]
+def _unseen_error(unseen: Sequence[tuple[FittedResponse, TestData]], reach: float, refitted: bool) -> UnseenError:
+    found = [_error_in_unseen(response, test) for response, test in unseen]
     squares, worth = np.array([one.square for one in found]), np.array([one.worth for one in found])
     return UnseenError(
         unseen[0][0].unit,
@@ -171,7 +171,7 @@ class _Unseen(NamedTuple):
     worth: float
 
 
-def _unseen(response: FittedResponse, test: TestData) -> _Unseen:
+def _error_in_unseen(response: FittedResponse, test: TestData) -> _Unseen:
     mask, predicted = response.mask(test), response.predict(test)
     gap = (response.measured(test) - predicted - response.offset(test, "zero"))[mask]
     worth = effective_count(gap, [slice(0, len(gap))])

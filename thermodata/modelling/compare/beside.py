@@ -63,7 +63,7 @@ def models_on_tests(
     """Rows by test, response and model, then the means. models: (id, model, its data), the reference among them.
     tests: only these, as test or campaign/test. UsageError for one that no model knows, or that is closed to all."""
     rows: list[ModelOnTest] = []
-    wanted = _named(models, tests)
+    wanted = _tests_named(models, tests)
     for identity, fitted, data in models:
         for response in fitted.responses:
             for test in fitted.tests(data):
@@ -79,7 +79,7 @@ def models_on_tests(
             "'thermodata confirm' alone",
         )
     rows = [row for row in rows if row.n or row.why]
-    rows += _means(rows)
+    rows += _means_over_tests(rows)
     base = {(r.campaign, r.test, r.response): r for r in rows if r.model == reference}
     rows = [_against(row, base.get((row.campaign, row.test, row.response))) for row in rows]
     order = {identity: i for i, (identity, _, _) in enumerate(models)}
@@ -87,7 +87,7 @@ def models_on_tests(
     return sorted(rows, key=lambda r: (r.response, place.get((r.campaign, r.test), len(place)), order[r.model]))
 
 
-def _named(models: Sequence[tuple[str, FittedModel, Dataset]], tests: Sequence[str]) -> tuple[Key, ...]:
+def _tests_named(models: Sequence[tuple[str, FittedModel, Dataset]], tests: Sequence[str]) -> tuple[Key, ...]:
     every = {test.key: test for _, _, data in models for test in data.tests}
     return find_tests(tests, replace(models[0][2], tests=tuple(every.values())), "--test") if tests else ()
 
@@ -118,7 +118,7 @@ def _row(identity: str, fitted: FittedModel, response: FittedResponse, test: Tes
     )
 
 
-def _means(rows: Sequence[ModelOnTest]) -> list[ModelOnTest]:
+def _means_over_tests(rows: Sequence[ModelOnTest]) -> list[ModelOnTest]:
     """Over the tests that every model predicts: a mean over others would compare other things."""
     found = []
     for response in dict.fromkeys(r.response for r in rows):

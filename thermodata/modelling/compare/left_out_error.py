@@ -89,7 +89,7 @@ class LeftOut:
 
     def errors(self, spec: Model) -> Errors:
         """UsageError where a fold can't be fitted, as where an effect is identified on the very test."""
-        return _together([self._of_fold(spec, fold) for fold in self._folds])
+        return _joined_errors([self._of_fold(spec, fold) for fold in self._folds])
 
     def errors_unless(self, spec: Model, before: Errors, hopeless: Callable[[Errors], bool]) -> Errors | None:
         """The same; None as soon as the errors so far are hopeless, whatever comes of the other folds: those in which
@@ -97,24 +97,24 @@ class LeftOut:
         found: dict[int, Errors] = {}
         for k in sorted(range(len(self._folds)), key=lambda k: -before.of(self._folds[k][1])):
             found[k] = self._of_fold(spec, self._folds[k])
-            if hopeless(_together(list(found.values()))):
+            if hopeless(_joined_errors(list(found.values()))):
                 return None
-        return _together([found[k] for k in sorted(found)])
+        return _joined_errors([found[k] for k in sorted(found)])
 
     def unseen(self, spec: Model) -> Iterator[tuple[FittedResponse, TestData]]:
         """Each open test with each response as the others give it. UsageError as above."""
         for fold in self._folds:
-            yield from self._unseen(spec, fold)
+            yield from self._fitted_without(spec, fold)
 
     def _of_fold(self, spec: Model, fold: _Fold) -> Errors:
         samples, squares = dict[Place, int](), dict[Place, float]()
-        for response, test in self._unseen(spec, fold):
+        for response, test in self._fitted_without(spec, fold):
             left = response.residual(test)[response.mask(test)]
             samples[response.name, test.key] = len(left)
             squares[response.name, test.key] = float(np.var(left))
         return Errors(samples, squares)
 
-    def _unseen(self, spec: Model, fold: _Fold) -> Iterator[tuple[FittedResponse, TestData]]:
+    def _fitted_without(self, spec: Model, fold: _Fold) -> Iterator[tuple[FittedResponse, TestData]]:
         train, group = fold
         for response in self._fit(self._with_orders(spec), train, group).responses:
             for test in (self.data.test(*key) for key in group):
@@ -140,7 +140,7 @@ class LeftOut:
         return spec.model_copy(update={"effects": effects})
 
 
-def _together(some: Sequence[Errors]) -> Errors:
+def _joined_errors(some: Sequence[Errors]) -> Errors:
     samples, squares = dict[Place, int](), dict[Place, float]()
     for one in some:
         samples |= one.samples

@@ -59,7 +59,7 @@ def portability(fitted: FittedModel, data: Dataset) -> list[Portability]:
             if why is not None and has_response(response.bound, test):
                 rows.append(Portability(test.campaign, test.test, test.machine, role, response.name, why=why))
             elif why is None and response.mask(test).any():
-                rows.append(_carry(response, test, role))
+                rows.append(_portability(response, test, role))
     return rows
 
 
@@ -85,7 +85,7 @@ def gain_least_squares(measured: Float1D, predicted: Float1D) -> float | None:
     return float(predicted @ measured) / power if moves else None
 
 
-def _carry(response: FittedResponse, test: TestData, role: str) -> Portability:
+def _portability(response: FittedResponse, test: TestData, role: str) -> Portability:
     mask = response.mask(test)
     measured, predicted = response.measured(test), response.predict(test)
     first = mask & (test.t_s < test.t_s[np.argmax(mask)] + max(test.zero_s, 1e-9))

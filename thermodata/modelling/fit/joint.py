@@ -67,7 +67,7 @@ def fit_jointly(
     gains = problem.gains(problem.matrix(x))
     none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
     spread, logs, cover = spreads(problem, x, gains, look if how.profiled else None) if how.uncertainty else none
-    together = None if cover is None else _together(design, cover, logs)
+    together = None if cover is None else _owners_together(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
         if order[slot.term] in by_member:
@@ -82,7 +82,7 @@ def fit_jointly(
     }
 
 
-def _together(design: Design, cover: Cover, logs: frozenset[str]) -> Together | None:
+def _owners_together(design: Design, cover: Cover, logs: frozenset[str]) -> Together | None:
     """None where groups differ by a factor: what spreads then is a product."""
     if any(slot.factors for slot in design.slots):
         return None
@@ -105,7 +105,7 @@ def fitted_problem(response: FittedResponse, tests: Sequence[TestData]) -> tuple
         return make_problem(Design(response.bound, terms, some, response.phases), fixed)
 
     problem = on(tests)
-    x = _near(problem, {k: response.terms[i] for k, i in enumerate(order)})
+    x = _point_where_terms_stood(problem, {k: response.terms[i] for k, i in enumerate(order)})
     return problem, x, lambda: rough(problem, tests, response.phases, on)
 
 
@@ -138,7 +138,7 @@ def _times(ends: Ends, g: float) -> Ends:
     return low, high
 
 
-def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
+def _point_where_terms_stood(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
     """The point of the search where the terms stood; shape (free parameters,)."""
     x = problem.start()
     for i, free in enumerate(problem.free):
@@ -155,13 +155,13 @@ def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
 
 def _start_near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
     """Where the terms stood, and parameters that they did not have there looked for over their whole range."""
-    start = _near(problem, known)
-    for place in _new(problem, known):
+    start = _point_where_terms_stood(problem, known)
+    for place in _new_parameters(problem, known):
         start = along_whole_range(problem, start, place)
     return start
 
 
-def _new(problem: Problem, known: Mapping[int, FittedTerm]) -> list[int]:
+def _new_parameters(problem: Problem, known: Mapping[int, FittedTerm]) -> list[int]:
     """Searched parameters of a known term that it did not have where it was found."""
     found = []
     for i, free in enumerate(problem.free):

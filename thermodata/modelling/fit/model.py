@@ -79,8 +79,8 @@ def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bo
             for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
         ]
     responses = tuple(
-        _with_its_tests(response, roles, _read(response.bound, own, data), data)
-        for response, own in zip(fitted, _shared(bound, open_tests), strict=True)
+        _with_its_tests(response, roles, _tests_read(response.bound, own, data), data)
+        for response, own in zip(fitted, _tests_fitted_to(bound, open_tests), strict=True)
     )
     again = overlaps(data, roles, keys, [response.bound.channel_of for response in responses])
     return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)), overlaps=again)
@@ -103,12 +103,12 @@ def _with_its_tests(response: FittedResponse, roles: Roles, fitted_on: frozenset
     return replace(response, calibrate=frozenset(roles.calibrate), fitted_on=fitted_on, scale=scale)
 
 
-def _shared(bound: Sequence[BoundResponse], open_tests: Sequence[list[TestData]]) -> list[list[TestData]]:
+def _tests_fitted_to(bound: Sequence[BoundResponse], open_tests: Sequence[list[TestData]]) -> list[list[TestData]]:
     """The tests that each response has its parameters from: those of all, where they are fitted together."""
     return [[t for tests in open_tests for t in tests]] * len(bound) if together(bound) else list(open_tests)
 
 
-def _read(bound: BoundResponse, tests: Sequence[TestData], data: Dataset) -> frozenset[Key]:
+def _tests_read(bound: BoundResponse, tests: Sequence[TestData], data: Dataset) -> frozenset[Key]:
     """These tests, and those that an effect which is identified first has of its own."""
     first = [
         usable_tests(replace(stage.bound, terms=tuple(bound.terms[i] for i in stage.members)), stage.tests)[0]

@@ -105,7 +105,7 @@ def choose_orders(
     if best.full is None:  # too little to leave any out: orders that are given need no choice
         return Choice(best.bound, None, tuple(r.row for r in trials))
     table = tuple(replace(r.row, chosen=r is best) for r in trials)
-    return Choice(best.bound, None if search.method == "arx" else _near(best.bound, best.full), table)
+    return Choice(best.bound, None if search.method == "arx" else _terms_near(best.bound, best.full), table)
 
 
 @dataclass(frozen=True)
@@ -165,15 +165,15 @@ class _Search:
         full: FittedResponse | None = None
         try:
             full = self.identify(trial, self.tests, near, method == "varpro")
-            start = None if method == "arx" else _near(trial, full)
+            start = None if method == "arx" else _terms_near(trial, full)
             total, worst = left_out_fit(self.left_out, lambda train: self.identify(trial, train, start, False))
         except UsageError as error:
             return _Trial(replace(row, why=error.what), trial, full, error)
         row = replace(
             row,
-            fit_left_out=_finite(total),
-            fit_worst=_finite(worst),
-            fit_calibration=_finite(free_run_fit(full, self.tests)),
+            fit_left_out=_finite_or_none(total),
+            fit_worst=_finite_or_none(worst),
+            fit_calibration=_finite_or_none(free_run_fit(full, self.tests)),
             why=_unidentified(full, identity) if method == "varpro" and orders != (1, 1) else None,
         )
         return _Trial(row, trial, full)
@@ -226,9 +226,9 @@ def _start(
     apart, so that none starts from the other."""
     numerator, denominator = orders
     if numerator > 2:
-        return _near(bound, found_at.get((numerator - 1, denominator)))
+        return _terms_near(bound, found_at.get((numerator - 1, denominator)))
     fewer = found_at.get((numerator, denominator - 1))
-    near = _near(bound, fewer)
+    near = _terms_near(bound, fewer)
     if near is None or denominator != 2:
         return near
     # the only lag has no number
@@ -236,7 +236,7 @@ def _start(
     return {**near, i: replace(near[i], groups=groups)}
 
 
-def _near(bound: BoundResponse, full: FittedResponse | None) -> Near:
+def _terms_near(bound: BoundResponse, full: FittedResponse | None) -> Near:
     """Terms by their place in the response; None where there is nothing to start from."""
     if full is None:
         return None
@@ -257,7 +257,7 @@ def _unidentified(response: FittedResponse, identity: str) -> str | None:
     return None
 
 
-def _finite(value: float) -> float | None:
+def _finite_or_none(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 

@@ -45,8 +45,11 @@ def fit_together(
                 where=f"effect '{term.id}'",
                 hint="leave its 'response' away, or fit the places one by one",
             )
-    copies = [[_at(bound, test) for test in own] for bound, own in zip(bounds, tests, strict=True)]
-    pool = replace(data, tests=tuple(_at(bound, test) for bound in bounds for test in data.tests if _has(bound, test)))
+    copies = [[_at_place(bound, test) for test in own] for bound, own in zip(bounds, tests, strict=True)]
+    pool = replace(
+        data,
+        tests=tuple(_at_place(bound, test) for bound in bounds for test in data.tests if _has_response(bound, test)),
+    )
     whole = replace(
         bounds[0], name=RESPONSE, channels={}, terms=tuple(_at_each_place(term) for term in bounds[0].terms)
     )
@@ -54,11 +57,11 @@ def fit_together(
     return [_of_place(fitted, bound, pool) for bound in bounds]
 
 
-def _has(bound: BoundResponse, test: TestData) -> bool:
+def _has_response(bound: BoundResponse, test: TestData) -> bool:
     return bound.channel_of(test) in test.values
 
 
-def _at(bound: BoundResponse, test: TestData) -> TestData:
+def _at_place(bound: BoundResponse, test: TestData) -> TestData:
     channel = bound.channel_of(test)
     valid = {**test.valid, RESPONSE: test.valid[channel]} if channel in test.valid else test.valid
     return replace(

@@ -33,7 +33,7 @@ def drawn(data: Dataset) -> Dataset:
     treads = {campaign: treads_of(some) for campaign, some in by_campaign.items()}
     for test in data.tests:
         here = {n: tread for n, tread in treads[test.campaign].items() if n in test.values}
-        tests.append(_drawn(test, here))
+        tests.append(_drawn_smooth(test, here))
         coarse |= {n: max(tread, coarse.get(n, 0.0)) for n, tread in here.items()}
     return replace(data, tests=tuple(tests), drawn_k=coarse) if coarse else data
 
@@ -49,11 +49,11 @@ def treads_of(tests: Sequence[TestData]) -> dict[str, float]:
 def _step(tests: Sequence[TestData], name: str) -> float:
     declared = [t.channels[name].resolution for t in tests if name in t.channels]
     known = [r for r in declared if r]
-    return max(known) if known else exact_tread_of([_without_ends(t.values[name][_read(t, name)]) for t in tests])
+    return max(known) if known else exact_tread_of([_without_ends(t.values[name][_is_read(t, name)]) for t in tests])
 
 
-def _drawn(test: TestData, treads: Mapping[str, float]) -> TestData:
-    known = {n: _read(test, n) for n in treads}
+def _drawn_smooth(test: TestData, treads: Mapping[str, float]) -> TestData:
+    known = {n: _is_read(test, n) for n in treads}
     names = [n for n in treads if known[n].sum() >= FEWEST]
     if not names:
         return test
@@ -66,7 +66,7 @@ def _drawn(test: TestData, treads: Mapping[str, float]) -> TestData:
     return replace(test, values={**test.values, **values})
 
 
-def _read(test: TestData, name: str) -> Bool1D:
+def _is_read(test: TestData, name: str) -> Bool1D:
     """Where a channel was read, shape (n,)."""
     return np.isfinite(test.values[name]) & test.valid.get(name, np.ones(len(test.t_s), dtype=np.bool_))
 

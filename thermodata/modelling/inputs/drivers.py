@@ -72,14 +72,14 @@ def names_of(text: str) -> tuple[str, ...]:
 
 def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
     """Whether the test has all that the binding reads, with at least one valid sample each."""
-    return all(_has(test, text) for text in binding.values())
+    return all(_has_driver(test, text) for text in binding.values())
 
 
-def _has(test: TestData, text: str) -> bool:
+def _has_driver(test: TestData, text: str) -> bool:
     """Of one driver; kept with the test."""
     key = "has driver", text
     if key not in test.kept:
-        logged = all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text))
+        logged = all(name in test.values and bool(np.any(_is_valid(test, name))) for name in names_of(text))
         test.kept[key] = logged and is_known(test, text)
     return bool(test.kept[key])
 
@@ -119,7 +119,7 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
     for name in names:
         if name not in test.values:
             raise unknown_channel(name, list(test.values), where=f"test {test.campaign}/{test.test}")
-    good = np.asarray(np.logical_and.reduce([_good(test, name) for name in names]))
+    good = np.asarray(np.logical_and.reduce([_is_valid(test, name) for name in names]))
     relative = not all(_quantity(test, name) in ZERO_AT_REST for name in names)
     if text.isidentifier():
         raw = np.asarray(test.values[text], dtype=np.float64)
@@ -137,8 +137,8 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
 
 def _nothing_valid(test: TestData, text: str, where: str) -> UsageError:
     names = names_of(text)
-    counts = {name: int(np.count_nonzero(_good(test, name))) for name in names}
-    together = int(np.count_nonzero(np.logical_and.reduce([_good(test, name) for name in names])))
+    counts = {name: int(np.count_nonzero(_is_valid(test, name))) for name in names}
+    together = int(np.count_nonzero(np.logical_and.reduce([_is_valid(test, name) for name in names])))
     each = ", ".join(f"{n} valid in {k} of {len(test.t_s)} samples" for n, k in counts.items())
     if together:
         got, hint = f"{each}, and no number comes of them", "divide by nothing that stays zero"
@@ -259,7 +259,7 @@ def step_s(test: TestData) -> float:
     return step_between(test.t_s)
 
 
-def _good(test: TestData, name: str) -> Bool1D:
+def _is_valid(test: TestData, name: str) -> Bool1D:
     valid = test.valid.get(name)
     finite = np.isfinite(test.values[name])
     return finite if valid is None else finite & valid

@@ -43,7 +43,7 @@ def with_lead(drivers: Drivers) -> tuple[Drivers, int]:
     if not any(periods.values()):
         return drivers, 0
     lead = round(LEAD_S / step)
-    values = {role: np.concatenate([_before(v, periods[role], lead), v]) for role, v in drivers.values.items()}
+    values = {role: np.concatenate([_lead_values(v, periods[role], lead), v]) for role, v in drivers.values.items()}
     valid = {role: np.concatenate([np.ones(lead, bool), v]) for role, v in drivers.valid.items()}
     t_s = drivers.t_s[0] + step * np.arange(-lead, n)
     return read_only(replace(drivers, t_s=t_s, values=values, valid=valid)), lead
@@ -83,7 +83,7 @@ def _period(values: Float1D, step: float) -> int:
     return peak if auto[peak] > ALIKE * auto[0] else 0
 
 
-def _before(values: Float1D, period: int, lead: int) -> Float1D:
+def _lead_values(values: Float1D, period: int, lead: int) -> Float1D:
     if not period:
         return np.zeros(lead)
     times = -(-lead // period)

@@ -30,7 +30,7 @@ def search_from_coarse(problem: Problem, tests: Sequence[TestData], make: Make) 
     if factor < 2:
         return search(problem)
     coarse = make([coarser(test, factor) for test in tests])
-    if not _alike(problem, coarse):
+    if not _have_same_parameters(problem, coarse):
         return search(problem)
     x = search(coarse)
     step_min = factor * _step_s(tests[0]) / 60.0
@@ -47,10 +47,10 @@ def rough(problem: Problem, tests: Sequence[TestData], wanted: tuple[str, ...] |
     if all(a is b for a, b in zip(some, tests, strict=True)):
         return None
     other = make(some)
-    return other if _alike(problem, other) else None
+    return other if _have_same_parameters(problem, other) else None
 
 
-def _alike(problem: Problem, other: Problem) -> bool:
+def _have_same_parameters(problem: Problem, other: Problem) -> bool:
     names = [[(f.param.name, len(f.slots)) for f in p.free] for p in (problem, other)]
     return names[0] == names[1] and other.design.n > 0
 

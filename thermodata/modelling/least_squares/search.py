@@ -92,7 +92,7 @@ def search(problem: Problem, start: Float1D | None = None, loose: bool = False, 
         return found
     # sweeps choose a valley while the others are coarse; once they are not, another one may be deeper
     elsewhere = found
-    for i in _told(problem, "parameters, along their range"):
+    for i in _places_watched(problem, "parameters, along their range"):
         elsewhere = along_whole_range(problem, elsewhere, i)
     return found if elsewhere is found else _refine(problem, elsewhere, loose, enough)
 
@@ -101,7 +101,7 @@ def along_whole_range(problem: Problem, x: Float1D, i: int) -> Float1D:
     """The best point over the range of one parameter, the others as they are; shape (free parameters,)."""
     f = problem.free[i]
     points = np.linspace(f.outside(f.lower), f.outside(f.upper), f.points)
-    return _along(problem, x, i, points, np.inf)[0]
+    return _best_along(problem, x, i, points, np.inf)[0]
 
 
 def _sweeps(problem: Problem, x: Float1D) -> Float1D:
@@ -110,20 +110,20 @@ def _sweeps(problem: Problem, x: Float1D) -> Float1D:
     best = np.inf
     for _ in range(SWEEPS):
         before = x
-        for i in _told(problem, "parameters, over their range"):
-            x, best = _along(problem, x, i, np.linspace(low[i], high[i], problem.free[i].points), best)
+        for i in _places_watched(problem, "parameters, over their range"):
+            x, best = _best_along(problem, x, i, np.linspace(low[i], high[i], problem.free[i].points), best)
         if len(x) == 1 or np.array_equal(x, before):
             break
     reach = np.array([(b - a) / (f.points - 1) for a, b, f in zip(low, high, problem.free, strict=True)])
     for _ in range(HALVINGS):
         reach = reach / 2
-        for i in _told(problem, "parameters, nearby"):
+        for i in _places_watched(problem, "parameters, nearby"):
             near = np.array([x[i] - reach[i], x[i] + reach[i]])
-            x, best = _along(problem, x, i, np.clip(near, low[i], high[i]), best)
+            x, best = _best_along(problem, x, i, np.clip(near, low[i], high[i]), best)
     return x
 
 
-def _told(problem: Problem, what: str) -> Iterator[int]:
+def _places_watched(problem: Problem, what: str) -> Iterator[int]:
     """The place of each parameter; where there are many, whoever watches is told how far it is."""
     places = range(len(problem.free))
     return counted(places, what) if len(places) >= TOLD else iter(places)
@@ -143,7 +143,7 @@ def _told_residual(problem: Problem, most: int) -> Callable[[Float1D], Float1D]:
     return residual
 
 
-def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -> tuple[Float1D, float]:
+def _best_along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -> tuple[Float1D, float]:
     """The best of some values of one parameter; only its own columns of the Gram matrix are made anew."""
     design, nonlinear = problem.design, problem.free[i]
     matrix = problem.matrix(x)

@@ -33,7 +33,7 @@ def bands(response: FittedResponse, test: TestData, *, from_start: bool = False)
     known: dict[str, Float1D] = {}
     complete = True
     for term in response.terms:
-        if not term.bound.covers(test) or not _moves(term):
+        if not term.bound.covers(test) or not _has_spread(term):
             continue
         if term.spread is None or (from_start and _is_open(term, term.spread, test)):
             complete = False
@@ -53,7 +53,7 @@ def bands(response: FittedResponse, test: TestData, *, from_start: bool = False)
     return Bands(np.sqrt(variance), known)
 
 
-def _moves(term: FittedTerm) -> bool:
+def _has_spread(term: FittedTerm) -> bool:
     """Whether anything of the term was fitted; what the file fixes has no spread."""
     names = [p.name for p in term.effect.params] + [g.name for g in term.effect.gains]
     return any(name not in term.bound.spec.fixed for name in names)

@@ -47,8 +47,8 @@ def folds(tests: Sequence[TestData], channel_of: Callable[[TestData], str], mask
             inside &= ~first
             if not inside.any():
                 continue
-            rest = _only(test, channel_of(test), ~inside)
-            found.append(Fold((rest,), (_only(test, channel_of(test), inside),), rest))
+            rest = _valid_only(test, channel_of(test), ~inside)
+            found.append(Fold((rest,), (_valid_only(test, channel_of(test), inside),), rest))
     return found
 
 
@@ -82,6 +82,6 @@ def _percent(measured: Float1D, residual: Float1D) -> float:
     return -np.inf if fit is None else fit
 
 
-def _only(test: TestData, channel: str, where: Bool1D) -> TestData:
+def _valid_only(test: TestData, channel: str, where: Bool1D) -> TestData:
     valid = test.valid.get(channel, np.ones(len(test.t_s), bool))
     return replace(test, valid={**test.valid, channel: valid & where})

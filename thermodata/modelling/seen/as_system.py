@@ -78,10 +78,10 @@ class SeenResponse:
 
 def see(fitted: FittedModel, data: Dataset) -> list[SeenResponse]:
     """Each response of the model on its calibration tests, at the step of the model."""
-    return [_see(response, data) for response in fitted.responses]
+    return [_response_seen(response, data) for response in fitted.responses]
 
 
-def _see(response: FittedResponse, data: Dataset) -> SeenResponse:
+def _response_seen(response: FittedResponse, data: Dataset) -> SeenResponse:
     systems, hidden, shown = list[tuple[TermLaw, Path, System]](), list[tuple[str, str]](), list[tuple[TermLaw, Path]]()
     for term in response.terms:
         groups = list(term.groups)
@@ -107,7 +107,7 @@ def _see(response: FittedResponse, data: Dataset) -> SeenResponse:
         response.name,
         response.unit,
         data.step_s,
-        tuple(_seen(term, path, system, response.unit, lowest) for term, path, system in systems),
+        tuple(_path_seen(term, path, system, response.unit, lowest) for term, path, system in systems),
         tuple(dict.fromkeys(hidden)),
         correlation,
         count,
@@ -125,7 +125,7 @@ def _paths(term: TermLaw) -> list[Path]:
     return [p for p in paths(total) if p.drive != law.ZERO]
 
 
-def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -> SeenPath:
+def _path_seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -> SeenPath:
     step_s = system.step_s
     slow = max([*system.taus_s, *(t for t, _ in path.by.late), 10 * step_s])
     n = int(SETTLED * slow / step_s) + 2
@@ -137,8 +137,8 @@ def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -
     return SeenPath(
         term.id,
         term.group,
-        _named(path.drive, term),
-        None if path.times is None else _named(path.times, term),
+        _drive_in_channels(path.drive, term),
+        None if path.times is None else _drive_in_channels(path.times, term),
         path.holds,
         over_unit(unit, *_drives(path, term, unit)),
         system,
@@ -147,7 +147,7 @@ def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -
     )
 
 
-def _named(node: law.Node, term: TermLaw) -> str:
+def _drive_in_channels(node: law.Node, term: TermLaw) -> str:
     """The drive in the channels' names."""
     return written(law.put(node, {role: d.tree for role, d in term.drives.items()}))
 
@@ -179,9 +179,9 @@ def _states(
             if mode is not None:
                 node = law.Filtered(node, Filter(modes=(replace(mode, weight=1.0),)))
             courses = [_course(terms[term.id], node, t, step_s) for t in tests]
-            tau = "" if mode is None or mode.tau_s is None else f" after {_told(mode.tau_s)}"
+            tau = "" if mode is None or mode.tau_s is None else f" after {_time_constant_shown(mode.tau_s)}"
             unit = written_unit(_drives(path, term, response.unit)[0] or {}) or "1"
-            found.append(against(f"{term.id}: {_named(path.drive, term)}{tau}", unit, courses, residuals))
+            found.append(against(f"{term.id}: {_drive_in_channels(path.drive, term)}{tau}", unit, courses, residuals))
     unique = {a.state: a for a in found}
     return tuple(a for a in unique.values() if len(a.centres))
 
@@ -192,6 +192,6 @@ def _course(term: FittedTerm, node: law.Node, test: TestData, step_s: float) -> 
     return evaluate(node, term.bound.drivers(test).values, step_s)[test.in_window]
 
 
-def _told(tau_s: float) -> str:
+def _time_constant_shown(tau_s: float) -> str:
     minutes = tau_s / 60.0
     return f"{minutes:.3g} min" if minutes < 999.5 else f"{minutes / 60.0:.3g} h"

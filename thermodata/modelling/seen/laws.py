@@ -92,7 +92,7 @@ def _law(
     drives: dict[str, Drive] = {}
     gains: tuple[GainLaw, ...] = ()
     if why is None and isinstance(effect, ModelOutput):
-        drives, gains, why = _inside(effect, values, laws(effect.response, channels, step_s, None, campaign))
+        drives, gains, why = _law_of_output(effect, values, laws(effect.response, channels, step_s, None, campaign))
     elif why is None:
         try:
             drives = {role: _drive(term, channels, role, text) for role, text in binding.items()}
@@ -129,7 +129,7 @@ def _gains(
     )
 
 
-def _inside(
+def _law_of_output(
     effect: ModelOutput, values: Values, terms: Sequence[TermLaw]
 ) -> tuple[dict[str, Drive], tuple[GainLaw, ...], str | None]:
     """Another model's output: its terms, each times the factor on it."""

@@ -88,11 +88,11 @@ def against(name: str, unit: str, states: Sequence[Float1D], residuals: Sequence
     both = float(x @ y) if len(x) else 0.0
     correlation = both / size if size > 0 else 0.0
     slope = both / float(x @ x) if size > 0 else 0.0
-    centres, means, sds = _binned(x, y)
+    centres, means, sds = _binned_means(x, y)
     return Against(name, unit, correlation, slope, centres, means, sds)
 
 
-def _binned(x: Float1D, y: Float1D) -> tuple[Float1D, Float1D, Float1D]:
+def _binned_means(x: Float1D, y: Float1D) -> tuple[Float1D, Float1D, Float1D]:
     if len(x) < FEWEST:
         return np.zeros(0), np.zeros(0), np.zeros(0)
     edges = np.unique(np.quantile(x, np.linspace(0, 1, BINS + 1)))

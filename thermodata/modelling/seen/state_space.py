@@ -92,7 +92,7 @@ def system_of(by: Filter, step_s: float) -> System:
             inputs += [b.real, b.imag]
             outputs += [2 * weight.real, -2 * weight.imag]
             direct += 2 * (weight * new).real
-    fir = _late(by, step_s)
+    fir = _delay_factors(by, step_s)
     a, b_all = _polynomials(by.direct, fir, poles, shares)
     order = len(fir) - 1
     if order > 0:  # a shift register: its states are u one, two, ... samples ago
@@ -121,7 +121,7 @@ def system_of(by: Filter, step_s: float) -> System:
     )
 
 
-def _late(by: Filter, step_s: float) -> Float1D:
+def _delay_factors(by: Filter, step_s: float) -> Float1D:
     """Delays as factors of u(k), u(k-1), ...: straight between two samples."""
     most = max((int(-(-t // step_s)) for t, _ in by.late), default=0)
     fir = np.zeros(most + 1)

@@ -69,9 +69,9 @@ class BoundTerm:
 
     def drivers(self, test: TestData) -> Drivers:
         """What the effect sees of the test."""
-        return self._kept(test)[1]
+        return self._drivers_kept(test)[1]
 
-    def _kept(self, test: TestData) -> tuple[TestData, Drivers, tuple[Drivers, int]]:
+    def _drivers_kept(self, test: TestData) -> tuple[TestData, Drivers, tuple[Drivers, int]]:
         """Made once a test; a changed copy of a test is another test."""
         kept = self._drivers.get(id(test))
         if kept is None or kept[0] is not test:
@@ -89,7 +89,7 @@ class BoundTerm:
             found = self.effect.column(test)
         else:
             try:
-                found = columns(self.effect, self._kept(test)[2], params)
+                found = columns(self.effect, self._drivers_kept(test)[2], params)
             except EffectError as error:
                 raise error.at(f"effect '{self.id}' of {error.origin}, test '{test.campaign}/{test.test}'") from error
         return self.while_acting(test, found)
@@ -99,7 +99,7 @@ class BoundTerm:
         try:
             if isinstance(self.effect, OfTests) or not all(self.covers(t) for t in tests):
                 return [self.columns(t, params) for t in tests]
-            found = columns_of_each(self.effect, [self._kept(t)[2] for t in tests], [params])
+            found = columns_of_each(self.effect, [self._drivers_kept(t)[2] for t in tests], [params])
         except EffectError:  # one after the other, it is told in which test
             return [self.columns(t, params) for t in tests]
         return [self.while_acting(t, own) for t, own in zip(tests, found, strict=True)]

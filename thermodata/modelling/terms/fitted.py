@@ -41,7 +41,11 @@ class FittedModel:
         if len(self.responses) == 1:
             return [*self.responses[0].checks, *again]
         return [
-            *(c.model_copy(update={"name": _of(r.name, c.name)}) for r in self.responses for c in r.checks),
+            *(
+                c.model_copy(update={"name": _name_with_response(r.name, c.name)})
+                for r in self.responses
+                for c in r.checks
+            ),
             *again,
         ]
 
@@ -51,7 +55,7 @@ class FittedModel:
         return [t for t in data.tests if self.roles.role(t.key) in wanted]
 
 
-def _of(response: str, name: str) -> str:
+def _name_with_response(response: str, name: str) -> str:
     """The name of a check with the response that it is of."""
     kind, _, subject = name.partition(":")
     return f"{kind}:{response}/{subject}" if subject else f"{kind}:{response}"

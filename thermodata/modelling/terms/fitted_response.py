@@ -188,7 +188,7 @@ class FittedResponse:
     def offset_from(self, test: TestData) -> Bool1D:
         """The samples whose mean is the offset."""
         gap = self.measured(test) - self.predict(test)
-        return _counted(gap, self.mask(test), test, "free" if test.key in self.calibrate else "zero")
+        return _samples_of_offset(gap, self.mask(test), test, "free" if test.key in self.calibrate else "zero")
 
     def residual(self, test: TestData) -> Float1D:
         """Measured minus predicted minus offset; NaN where there is no measurement."""
@@ -224,11 +224,11 @@ def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ..
 
 
 def _offset(gap: Float1D, mask: Bool1D, test: TestData, how: str) -> float:
-    counted = _counted(gap, mask, test, how)
+    counted = _samples_of_offset(gap, mask, test, how)
     return float(gap[counted].mean()) if counted.any() else 0.0
 
 
-def _counted(gap: Float1D, mask: Bool1D, test: TestData, how: str) -> Bool1D:
+def _samples_of_offset(gap: Float1D, mask: Bool1D, test: TestData, how: str) -> Bool1D:
     counted = mask & np.isfinite(gap)
     if how == "zero" and counted.any():
         first = test.t_s[np.argmax(counted)]

@@ -41,9 +41,9 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             if param.name in values.silent:
                 continue
             ends = interval(param.name, values, bounds_of(term, param))
-            by_name.setdefault(name_of(term, group, param), _told(values.params[param.name], param.unit, ends))
+            by_name.setdefault(name_of(term, group, param), _parameter(values.params[param.name], param.unit, ends))
         if term.bound.spec.one_gain:
-            by_name[f"{term.id}.{FACTOR}{tag}"] = _told(values.factor, "1", interval(FACTOR, values))
+            by_name[f"{term.id}.{FACTOR}{tag}"] = _parameter(values.factor, "1", interval(FACTOR, values))
             tag = ""
         for gain in term.effect.gains:
             unit = gain_unit(response, term, gain.unit)
@@ -53,7 +53,7 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             if function is not None:
                 value, unit = value * function.gain_at_rest, gain_unit(response, term, "um/u")
             ends = _with_scale(values.gains[gain.name], interval(gain.name, values), response.scale)
-            by_name[f"{term.id}.{gain.name}{tag}"] = _told(value, unit, ends)
+            by_name[f"{term.id}.{gain.name}{tag}"] = _parameter(value, unit, ends)
     if function is not None:
         by_name |= _coefficients(function, term.id, gain_unit(response, term, "um/u"))
     return by_name
@@ -135,5 +135,5 @@ def _with_scale(value: float, ends: Interval, scale: float) -> Interval:
     )
 
 
-def _told(value: float, unit: str, ends: tuple[float | None, float | None]) -> Parameter:
+def _parameter(value: float, unit: str, ends: tuple[float | None, float | None]) -> Parameter:
     return Parameter(value=value, unit=unit, low=ends[0], high=ends[1])

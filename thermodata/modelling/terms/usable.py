@@ -32,7 +32,7 @@ def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[
 def _ruled_out(terms: Sequence[BoundTerm], test: TestData) -> str:
     """Which channel is logged there and is ruled out by which flag, and what to do; '' where it was not logged."""
     texts = {x for t in terms if not isinstance(t.effect, OfTests) for x in t.binding_of(test).values()}
-    out = sorted({name for text in texts for name in _out(test, text)})
+    out = sorted({name for text in texts for name in _channels_ruled_out(test, text)})
     flags = {name: test.channels[name].faulty or "offset" for name in out}
     if not flags:
         return ""
@@ -42,7 +42,7 @@ def _ruled_out(terms: Sequence[BoundTerm], test: TestData) -> str:
     )
 
 
-def _out(test: TestData, text: str) -> list[str]:
+def _channels_ruled_out(test: TestData, text: str) -> list[str]:
     """The channels of a driver that flags rule out there. One that is off by a constant is ruled out where that does
     not go out with the start, and drives as ever elsewhere."""
     faulty = [

@@ -47,7 +47,7 @@ def placed(error: ThermodataError, path: Path) -> ThermodataError:
         return error
     word = (error.got or "").strip("'")
     below = [p for p in document.line if p[: len(place)] == place and p != place]
-    refused = [p for p in below if _plain(at_place(document.data, p)) and str(at_place(document.data, p)) == word]
+    refused = [p for p in below if _is_scalar(at_place(document.data, p)) and str(at_place(document.data, p)) == word]
     refused += [p for p in below if word in _keys(p[-1])]
     return error.at(document.where(next(iter(refused), place)) + comma + rest)
 
@@ -63,7 +63,7 @@ def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place
     if effect is not None:
         own = [p for p in places if p[0] == "effects" and len(p) > 1 and _is_effect(document, p[:2], effect[1])]
         places = [*own, *(p for p in places if p not in set(own))]
-    texts = {p: str(at_place(document.data, p)) for p in places if _plain(at_place(document.data, p))}
+    texts = {p: str(at_place(document.data, p)) for p in places if _is_scalar(at_place(document.data, p))}
     inside = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)")
     return next(
         (
@@ -90,5 +90,5 @@ def _is_effect(document: Document, place: Place, name: str) -> bool:
     return isinstance(one, dict) and name in (one.get("id"), one.get("effect"))
 
 
-def _plain(value: object) -> bool:
+def _is_scalar(value: object) -> bool:
     return not isinstance(value, dict | list)

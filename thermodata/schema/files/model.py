@@ -107,7 +107,7 @@ class EffectSpec(Strict):
 
     @field_validator("groups", mode="before")
     @classmethod
-    def _each(cls, value: Any) -> Any:
+    def _key_for_each_value(cls, value: Any) -> Any:
         """{"[D25, D63]": k1} -> {D25: k1, D63: k1}: a list as a key means each of its values."""
         if not isinstance(value, dict):
             return value
@@ -120,7 +120,7 @@ class EffectSpec(Strict):
         return named
 
     @model_validator(mode="after")
-    def _belongs(self) -> EffectSpec:
+    def _belongs_to_gain_by(self) -> EffectSpec:
         if self.gain_by is None and (self.groups or self.one_gain):
             raise ValueError(f"'{'groups' if self.groups else 'one_gain'}' needs 'gain_by'")
         return self
@@ -176,7 +176,7 @@ class Model(Strict):
 
     @field_validator("campaign", mode="before")
     @classmethod
-    def _one(cls, value: Any) -> Any:
+    def _one_campaign(cls, value: Any) -> Any:
         if isinstance(value, list):
             raise WrongValueError(
                 "several campaigns stand under 'campaigns'",
@@ -202,7 +202,7 @@ class Model(Strict):
 
     @field_validator("response")
     @classmethod
-    def _some(cls, value: Any) -> Any:
+    def _at_least_one(cls, value: Any) -> Any:
         if isinstance(value, list) and not value:
             raise WrongValueError("no response", expected="at least one: {axis: Z, at: tcp}")
         return value

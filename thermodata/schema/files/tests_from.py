@@ -168,7 +168,7 @@ def _conditions(
         )
     for condition, column in spec.table.columns.items():
         value = _with_unit(row[column], spec.units.get(condition))
-        if condition in result and not _same(result[condition], value):
+        if condition in result and not _are_same_values(result[condition], value):
             if spec.disagree == "error":
                 raise SpecError(
                     f"file name and table disagree on '{condition}'",
@@ -193,7 +193,7 @@ def _norm(value: Any) -> str:
     return f"{number:g}"
 
 
-def _same(a: Any, b: Any) -> bool:
+def _are_same_values(a: Any, b: Any) -> bool:
     try:
         return split_value(a) == split_value(b)
     except ThermodataError:

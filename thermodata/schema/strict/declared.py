@@ -48,7 +48,7 @@ class WrongValueError(ValueError):
         self.expected, self.hint = expected, hint
 
 
-def _said(error: ThermodataError) -> WrongValueError:
+def _as_wrong_value(error: ThermodataError) -> WrongValueError:
     return WrongValueError(error.what, expected=error.expected or "", hint=error.hint)
 
 
@@ -61,7 +61,7 @@ def in_unit(unit: str) -> BeforeValidator:
         try:
             return value_in(text, unit)
         except ThermodataError as error:
-            raise _said(error) from None
+            raise _as_wrong_value(error) from None
 
     return BeforeValidator(convert, json_schema_input_type=str | float)
 
@@ -76,7 +76,7 @@ def amount(*units: str, words: bool = False) -> BeforeValidator:
         try:
             number, written = split_value(value)
         except ThermodataError as error:
-            raise _said(error) from None
+            raise _as_wrong_value(error) from None
         if written and units and not any(converts(written, unit) for unit in units):
             right = " or ".join(f"'{number:g} {unit}'" for unit in units)
             raise WrongValueError(
@@ -113,7 +113,7 @@ def _in_nanoseconds(seconds: float) -> float:
     return seconds
 
 
-def _signed(holds: Callable[[float], bool], expected: str) -> AfterValidator:
+def _amount_that(holds: Callable[[float], bool], expected: str) -> AfterValidator:
     """Refuses an amount, with or without a unit, whose number can't be. Text without a number is left as it is."""
 
     def judge(value: Any, info: ValidationInfo) -> Any:
@@ -130,8 +130,8 @@ def _signed(holds: Callable[[float], bool], expected: str) -> AfterValidator:
     return AfterValidator(judge)
 
 
-NOT_NEGATIVE = _signed(lambda number: number >= 0, "0 or more")
-POSITIVE = _signed(lambda number: number > 0, "more than 0")
+NOT_NEGATIVE = _amount_that(lambda number: number >= 0, "0 or more")
+POSITIVE = _amount_that(lambda number: number > 0, "more than 0")
 
 Seconds = Annotated[float, in_unit("s"), AfterValidator(_in_nanoseconds)]
 Um = Annotated[float, in_unit("um")]

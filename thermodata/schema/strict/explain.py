@@ -53,7 +53,7 @@ def _problems(model: type[BaseModel], document: Document, error: ValidationError
     in_list: Counter[tuple[Place, str]] = Counter()
     found: list[tuple[tuple[Place, str] | None, SpecError]] = []
     # a misspelt key is why another is missing: say it first
-    details = sorted(_once(error.errors()), key=lambda detail: detail["type"] != "extra_forbidden")
+    details = sorted(_without_lacking_before(error.errors()), key=lambda detail: detail["type"] != "extra_forbidden")
     for detail in details:
         complaint = Complaint.of(model, document, detail)
         place = complaint.place
@@ -76,7 +76,7 @@ def _problems(model: type[BaseModel], document: Document, error: ValidationError
         yield as_error(Complaint.of(model, document, details[0]))
 
 
-def _once(details: Sequence[Any]) -> list[Any]:
+def _without_lacking_before(details: Sequence[Any]) -> list[Any]:
     """Without what a list lacks before its last value: that one tells how many it should have."""
     last = {d["loc"][:-1]: d for d in details if d["type"] == "missing" and isinstance(d["loc"][-1], int)}
     return [d for d in details if not (d["type"] == "missing" and d["loc"][:-1] in last) or d is last[d["loc"][:-1]]]

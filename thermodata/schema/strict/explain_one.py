@@ -30,7 +30,7 @@ def _unknown_key(of: Complaint) -> SpecError:
     )
 
 
-def _missing(of: Complaint) -> SpecError:
+def _missing_key(of: Complaint) -> SpecError:
     above, where = of.place[:-1], of.document.where(of.place[:-1])
     if isinstance(of.name, int):
         return SpecError(
@@ -106,7 +106,7 @@ def _wrong_value(of: Complaint) -> SpecError:
 
 _BY_KIND: Mapping[str, Callable[[Complaint], SpecError]] = {
     "extra_forbidden": _unknown_key,
-    "missing": _missing,
+    "missing": _missing_key,
     "union_tag_not_found": _tag_missing,
     "union_tag_invalid": _tag_unknown,
     "literal_error": _word,

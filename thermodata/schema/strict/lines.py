@@ -115,11 +115,11 @@ def parse_document(text: str, path: Path) -> Document:
     """The same from text; `path` is for messages and relative files."""
     if FastLoader is not None and not any(char in text for char in _LOOSE) and not _too_deep(text, FastLoader):
         try:
-            return _parsed(FastLoader(text), path)
+            return _document_of(FastLoader(text), path)
         except yaml.YAMLError:
             pass  # what it refuses the other one reads, or says where and why in its own words
     try:
-        return _parsed(SlowLoader(text), path)
+        return _document_of(SlowLoader(text), path)
     except RecursionError:
         line = _too_deep(text, SlowLoader)
         raise SpecError(
@@ -150,7 +150,7 @@ def _too_deep(text: str, loader: Any) -> int:
     return 0
 
 
-def _parsed(loader: Any, path: Path) -> Document:
+def _document_of(loader: Any, path: Path) -> Document:
     try:
         root = loader.get_single_node()
         if root is None or not isinstance(root, yaml.MappingNode):

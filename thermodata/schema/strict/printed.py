@@ -54,7 +54,7 @@ def rounding(value: float) -> float:
     return 0.5 * 10.0**exponent if isinstance(exponent, int) and exponent < 0 and value != int(value) else 0.0
 
 
-def _read(value: Any) -> float:
+def _read_printed(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise ValueError("a number is wanted")
     try:
@@ -72,28 +72,28 @@ def _with_unit(text: str) -> float:
     raise WrongValueError(f"'{text}' is no number", expected="a number, in the effect's unit or with one: 18 min")
 
 
-def _written(value: float) -> str | float:
+def _write_printed(value: float) -> str | float:
     if isinstance(value, Printed):
         return value.text
     return float(value) if isfinite(value) else str(value)  # JSON has no infinite number
 
 
 def _read_plainly(value: Any) -> float:
-    number = _read(value)
+    number = _read_printed(value)
     return number if isinstance(number, WithUnit) else float(number)
 
 
 PrintedNumber = Annotated[
     float,
-    PlainValidator(_read),
-    PlainSerializer(_written, when_used="json"),
+    PlainValidator(_read_printed),
+    PlainSerializer(_write_printed, when_used="json"),
     WithJsonSchema({"type": ["number", "string"]}),
 ]
 """A number of a file, or one with its unit; as JSON it is text where only that keeps its digits or the unit."""
 NumberOrUnit = Annotated[
     float,
     PlainValidator(_read_plainly),
-    PlainSerializer(_written, when_used="json"),
+    PlainSerializer(_write_printed, when_used="json"),
     WithJsonSchema({"type": ["number", "string"]}),
 ]
 """The same, of which the digits say nothing: 1e-3 and 0.001 are one, and so are the ids of models with either."""

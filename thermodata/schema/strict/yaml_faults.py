@@ -65,7 +65,7 @@ def advice(error: Any, text: str) -> str:
         )
     if "scalar" in context and begun is not None:
         return f"the quote that opens in line {begun + 1} is not closed"
-    beside = _beside(lines, at)
+    beside = _nearly_as_far_in(lines, at)
     if beside is not None:
         return (
             f"line {at + 1} is set in by {_indent(own)}, line {beside + 1} above it by {_indent(lines[beside])}: "
@@ -80,7 +80,7 @@ def _indent(line: str) -> int:
     return len(line) - len(line.lstrip(" "))
 
 
-def _beside(lines: list[str], at: int) -> int | None:
+def _nearly_as_far_in(lines: list[str], at: int) -> int | None:
     """The line above that another one stands nearly as far in as, by a space or three; None where it stands right."""
     for k in range(at - 1, -1, -1):
         if lines[k].strip() and not lines[k].lstrip().startswith("#"):

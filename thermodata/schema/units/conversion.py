@@ -12,7 +12,7 @@ from thermodata.schema.units.unit import normal_unit, pint_units, read_unit
 _TURNING = ("turn", "kiloturn", "revolutions_per_minute", "kilorevolutions_per_minute", "revolution", "kilorevolution")
 
 
-def _turns(read: Any) -> float:
+def _power_of_turns(read: Any) -> float:
     """The power of turns in a unit: 1 for rpm, -1 for mm by the turn."""
     return float(sum(power for name, power in read._units.items() if name in _TURNING))
 
@@ -20,7 +20,7 @@ def _turns(read: Any) -> float:
 def _per_time_only(read: Any) -> bool:
     """Whether a unit is 1/time without an angle: Hz, 1/d."""
     angles = any("radian" in name or "degree" in name or "arc" in name or name == "grade" for name in read._units)
-    return read.dimensionality == {"[time]": -1} and not angles and _turns(read) == 0
+    return read.dimensionality == {"[time]": -1} and not angles and _power_of_turns(read) == 0
 
 
 @lru_cache(maxsize=4096)
@@ -33,9 +33,9 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
     try:
         registry = pint_units()
         read, wanted = read_unit(source), read_unit(goal)
-        if _per_time_only(read) and _turns(wanted) == 1:
+        if _per_time_only(read) and _power_of_turns(wanted) == 1:
             read = read * registry.turn  # what is counted by the second is turns, not radians
-        if _turns(read) < 0 <= _turns(wanted):
+        if _power_of_turns(read) < 0 <= _power_of_turns(wanted):
             raise ValueError("a length by the turn is no length")
         at_0 = float(registry.Quantity(0.0, read).to(wanted).magnitude)
         at_1 = float(registry.Quantity(1.0, read).to(wanted).magnitude)

@@ -11,7 +11,7 @@ _WRITTEN_IN = ("cp850", "cp437", "cp852", "mac_roman")
 
 def encoding_of(unit: str) -> tuple[str, str] | None:
     """(encoding, unit) in which the letters of what is no unit are one; None for a unit, and where none makes one."""
-    if not _odd(unit):
+    if not _has_odd_letters(unit):
         return None
     for read_as in _READ_AS:
         for written_in in _WRITTEN_IN:
@@ -19,12 +19,12 @@ def encoding_of(unit: str) -> tuple[str, str] | None:
                 found = unit.encode(read_as).decode(written_in)
             except UnicodeError:
                 continue
-            if not _odd(found) and is_unit(found):
+            if not _has_odd_letters(found) and is_unit(found):
                 return written_in, found
     return None
 
 
-def _odd(unit: str) -> bool:
+def _has_odd_letters(unit: str) -> bool:
     """Whether letters stand in it that units in plain letters don't have."""
     return any(not c.isascii() and c not in _SIGNS for c in unit)
 

@@ -58,10 +58,10 @@ _ALONE = frozenset(_ALONE_TEXT.split())
 
 def usual(registry: Any, names: Iterable[str]) -> bool:
     """Whether each of pint's names is a unit with a prefix, if any, that a lab writes."""
-    return all(_usual(registry, name) for name in names)
+    return all(_has_usual_prefix(registry, name) for name in names)
 
 
-def _usual(registry: Any, name: str) -> bool:
+def _has_usual_prefix(registry: Any, name: str) -> bool:
     if name in _ALONE or name in _PREFIXES:
         return True
     return any(

@@ -14,13 +14,13 @@ def listed(names: Sequence[str], last: str = "and") -> str:
 
 def with_count(names: Iterable[str], most: int, before: str = " and") -> str:
     """The first `most`, and how many there are beside them: 'a, b and 3 more'. before: what leads to the count."""
-    shown, left = _parted(names, most)
+    shown, left = _shown_and_left(names, most)
     return shown + (f"{before} {left} more" if left > 0 else "")
 
 
 def with_dots(names: Iterable[str], most: int) -> str:
     """The first `most`, and dots where there are others: 'a, b, ...'."""
-    shown, left = _parted(names, most)
+    shown, left = _shown_and_left(names, most)
     return shown + (", ..." if left > 0 else "")
 
 
@@ -49,6 +49,6 @@ def beside(value: float, limit: float, digits: int = 0) -> str:
     return f"just {'under' if value < limit else 'over'} the limit of {said}"
 
 
-def _parted(names: Iterable[str], most: int) -> tuple[str, int]:
+def _shown_and_left(names: Iterable[str], most: int) -> tuple[str, int]:
     every = list(names)
     return ", ".join(every[:most]), len(every) - most

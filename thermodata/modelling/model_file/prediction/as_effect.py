@@ -54,7 +54,7 @@ class Prediction(OfTests):
         return self._key(test) is not None
 
     def lacks(self, test: TestData) -> str:
-        return f"{self.file} is of {_listed(list(self.tables))}"
+        return f"{self.file} is of {_names_shown(list(self.tables))}"
 
     def column(self, test: TestData) -> Float2D:
         """shape (n, 1), relative to the first predicted value."""
@@ -83,7 +83,7 @@ def said(effect: Effect, data: Dataset) -> tuple[str, ...]:
     return (*effect.notes, *_of_no_test(effect, data)) if isinstance(effect, Prediction) else ()
 
 
-def _listed(tests: Sequence[str]) -> str:
+def _names_shown(tests: Sequence[str]) -> str:
     return ", ".join(f"'{test}'" for test in tests[:_SHOWN]) + (", ..." if len(tests) > _SHOWN else "")
 
 
@@ -92,7 +92,7 @@ def _of_no_test(effect: Prediction, data: Dataset) -> list[str]:
     strange = [test for test in effect.tables if test not in known]
     if not strange:
         return []
-    shown = _listed(strange)
+    shown = _names_shown(strange)
     near = next(filter(None, (nearest(test, known) for test in strange)), None)
     asked = f"; did you mean '{near}'?" if near else ""
     are = f"{shown} is no test" if len(strange) == 1 else f"{shown} are no tests"

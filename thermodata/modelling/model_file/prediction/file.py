@@ -67,7 +67,7 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
         ) from None
     header = _header(cells.header, unit, path, cells.at)
     file = str(path)  # a path is made to text anew each time it is told
-    used = [(line, _named(row, header, f"{file}:{line}")) for line, row in cells.rows]
+    used = [(line, _cells_by_column(row, header, f"{file}:{line}")) for line, row in cells.rows]
     numbers = numbers_of((line, row[key]) for line, row in used for key in _NUMBERS)
     tests: dict[str, Rows] = {}
     only: str | None = None
@@ -87,7 +87,7 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
     return tests
 
 
-def _named(cells: Sequence[str], header: _Header, where: str) -> dict[str, str]:
+def _cells_by_column(cells: Sequence[str], header: _Header, where: str) -> dict[str, str]:
     """Column -> its cell, of the columns that are read. SpecError for a row that ends before one of them."""
     if len(cells) < header.width and (
         lacking := [header.column[key] for key, i in header.at.items() if i >= len(cells)]

@@ -199,9 +199,9 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
             )
     if "num" in lists or "den" in lists:
         return GivenFunction(
-            _run(lists.get("num", {})), _run(lists.get("den", {})), None, fixed.get("time_s", 1.0), where
+            _in_order(lists.get("num", {})), _in_order(lists.get("den", {})), None, fixed.get("time_s", 1.0), where
         )
-    numerator, denominator = _run(lists.get("a", {})), _run({0: 1.0, **lists.get("b", {})})
+    numerator, denominator = _in_order(lists.get("a", {})), _in_order({0: 1.0, **lists.get("b", {})})
     function = GivenFunction(numerator, denominator, fixed.get("sample_s", 1.0), where=where)
     refuse_lost_digits(numerator, denominator, fixed.get("sample_s", 1.0), where)
     return function
@@ -212,5 +212,5 @@ def is_coefficient(name: str) -> bool:
     return name in CONSTANTS or _COEFFICIENT.match(name) is not None
 
 
-def _run(numbers: Mapping[int, float]) -> list[float]:
+def _in_order(numbers: Mapping[int, float]) -> list[float]:
     return [numbers[i] for i in sorted(numbers)]

@@ -32,12 +32,12 @@ def refuse_unsaid(by: str, tests: Sequence[TestData], where: str) -> None:
         known = dict.fromkeys(name for t in tests for name in conditions_of(t))
         raise unknown_name("condition", by, list(known), where=f"{where}, in any test")
     having = [t for t in tests if t.key in said]
-    values = [f"{v} in {_listed([t for t in having if said[t.key] == v])}" for v in dict.fromkeys(said.values())]
+    values = [f"{v} in {_tests_shown([t for t in having if said[t.key] == v])}" for v in dict.fromkeys(said.values())]
     raise SpecError(
         f"some tests have no condition '{by}', and so no gain",
         where=where,
         expected=f"'{by}' in every test that the effect is asked in",
-        got=f"none in {_listed(without)}; {'; '.join(values)}",
+        got=f"none in {_tests_shown(without)}; {'; '.join(values)}",
         hint="say it of them in the campaign file; where the effect does not act in them, name those in which it does "
         f"in the model file: tests: [{', '.join(_names(having, tests))}]",
     )
@@ -49,6 +49,6 @@ def _names(tests: Sequence[TestData], beside: Sequence[TestData]) -> list[str]:
     return [f"{t.campaign}/{t.test}" if several else t.test for t in tests]
 
 
-def _listed(tests: Sequence[TestData]) -> str:
+def _tests_shown(tests: Sequence[TestData]) -> str:
     more = ", ..." if len(tests) > _LISTED else ""
     return ", ".join(t.test for t in tests[:_LISTED]) + more
