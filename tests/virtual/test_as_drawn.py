@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.virtual import make_world
-from thermodata.virtual.blind.trial import _alike, _Fits
+from thermodata.virtual.blind.trial import _claims_like_causes, _Fits
 from thermodata.virtual.gantry.as_drawn import MOST_LOCKED, SIZE_UM, as_drawn, known, thinly
 from thermodata.virtual.gantry.case import case_of
 from thermodata.virtual.gantry.catalogue import EFFECTS
@@ -94,7 +94,7 @@ def test_what_imitates_a_cause_on_the_open_tests_is_told_from_what_does_not() ->
     unknown = right([], "", "")  # so that no claim is the cause by its name
     case = replace(case, key=replace(case.key, names={**case.key.names, "hydraulics": unknown}))
     claims = [said("lag:T_tank"), said("lag:T_bed")]
-    assert _alike(case, claims, _Fits(case.data)) == {("lag:T_tank", "hydraulics")}
+    assert _claims_like_causes(case, claims, _Fits(case.data)) == {("lag:T_tank", "hydraulics")}
 
 
 def test_a_demonstration_knows_all_but_the_hidden_one() -> None:

@@ -36,10 +36,10 @@ def script() -> str:
 
     Our own without comments and indentation, which every saved page would carry: none has a text of several lines.
     """
-    return "\n".join(asset(name) if "/" in name else _bare(asset(name)) for name in SCRIPTS)
+    return "\n".join(asset(name) if "/" in name else _without_comments(asset(name)) for name in SCRIPTS)
 
 
-def _bare(text: str) -> str:
+def _without_comments(text: str) -> str:
     lines = (_TAIL.sub("", line).strip() for line in text.splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//"))
 

@@ -71,7 +71,7 @@ def columns_in(
     if last - first <= most:
         inside = slice(first, last)
         at, holes = _with_gaps(x[inside])
-        return at, {name: _opened(values[inside], holes) for name, values in columns.items()}
+        return at, {name: _with_holes(values[inside], holes) for name, values in columns.items()}
     at = x[:0]
     made = {}
     for name, values in columns.items():
@@ -94,5 +94,5 @@ def _with_gaps(x: Float1D) -> tuple[Float1D, np.ndarray]:
     return np.insert(x, holes, middles), holes
 
 
-def _opened(values: Float1D, holes: np.ndarray) -> Float1D:
+def _with_holes(values: Float1D, holes: np.ndarray) -> Float1D:
     return np.insert(np.asarray(values, dtype=np.float64), holes, np.nan)

@@ -31,12 +31,12 @@ def bindings(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str
     is taken (alternatives). Otherwise an optional need is taken where something fits it. A channel drives one role. A
     whole drives what asks for a part of it (`spindle.bearing?`) only where nothing reads that part itself.
     """
-    return [found for found, _ in _all(effect, channels)]
+    return [found for found, _ in _all_bindings(effect, channels)]
 
 
 def unnamed(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str, str]]:
     """The same, of several spindles that one alone which has no name: `spindle`, and not `counter_spindle`."""
-    found = list(_all(effect, channels))
+    found = list(_all_bindings(effect, channels))
     return [binding for binding, variables in found if "" in variables.values()] or [binding for binding, _ in found]
 
 
@@ -58,7 +58,7 @@ def candidate_id(effect: str, binding: Mapping[str, str]) -> str:
     return f"{effect}:{','.join(binding.values())}" if binding else effect
 
 
-def _all(effect: Effect, channels: Mapping[str, Described]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
+def _all_bindings(effect: Effect, channels: Mapping[str, Described]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
     if not effect.needs:
         yield {}, {}
         return
@@ -95,14 +95,16 @@ def _extend(
         return
     need, rest = needs[0], needs[1:]
     free = {name: info for name, info in channels.items() if name not in found.values()}
-    fitting = _fitting(need, free, variables)
+    fitting = _channels_fitting(need, free, variables)
     for name, v in fitting.items():
         yield from _extend(rest, channels, {**found, need.role: name}, v)
     if need.optional and not fitting:
         yield from _extend(rest, channels, found, variables)
 
 
-def _fitting(need: Need, channels: Mapping[str, Described], variables: Mapping[str, str]) -> dict[str, dict[str, str]]:
+def _channels_fitting(
+    need: Need, channels: Mapping[str, Described], variables: Mapping[str, str]
+) -> dict[str, dict[str, str]]:
     """Channel -> variables, of those that fit a need."""
     alone = Need(need.role, need.quantity, tuple(map(part_alone, need.places)))
     fits, parts = (

@@ -33,7 +33,9 @@ def guarded_basis(effect: Effect, drivers: Drivers, p: Mapping[str, float]) -> F
     if right and _is_finite(found):
         return found
     rule = "a basis gives one finite float64 column a gain, with a row a sample"
-    raise _fault(effect, drivers, f"effect '{effect.name}' broke the rule: {rule}", _given(effect, found, right, p))
+    raise _fault(
+        effect, drivers, f"effect '{effect.name}' broke the rule: {rule}", _what_was_given(effect, found, right, p)
+    )
 
 
 def guarded_bases(effect: Effect, several: Sequence[Drivers], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
@@ -101,7 +103,7 @@ def _raised(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}{line}"
 
 
-def _given(effect: Effect, found: object, right: bool, p: Mapping[str, float]) -> str:
+def _what_was_given(effect: Effect, found: object, right: bool, p: Mapping[str, float]) -> str:
     if not isinstance(found, np.ndarray):
         return f"{type(found).__name__}, and no array"
     if not right:

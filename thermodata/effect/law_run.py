@@ -46,10 +46,10 @@ def _values_of(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> 
         case law.Where(condition, then, other):
             holds = _values_of(condition, values, step_s) != 0
             return np.asarray(np.where(holds, _values_of(then, values, step_s), _values_of(other, values, step_s)))
-    return _remembered(node, values, step_s)
+    return _with_memory(node, values, step_s)
 
 
-def _remembered(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
+def _with_memory(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
     size = max(len(v) for v in values.values())
     if isinstance(node, law.Lag):
         u = np.broadcast_to(_values_of(node.of, values, step_s), (size,)).astype(np.float64)

@@ -58,7 +58,7 @@ class Mode:
         if self.s is not None:
             r = -complex(self.s) * cycle_s
             forgotten = -_expm1(-r)
-            return cmath.exp(-r), forgotten, _new(r, forgotten)
+            return cmath.exp(-r), forgotten, _share_of_new(r, forgotten)
         ratio = cycle_s / self.sample_s
         count = round(ratio)
         if count < 1 or abs(ratio - count) > _WHOLE * max(1.0, ratio):
@@ -190,7 +190,7 @@ def _expm1(x: complex) -> complex:
     return complex(np.expm1(np.complex128(x)))
 
 
-def _new(r: complex, forgotten: complex) -> complex:
+def _share_of_new(r: complex, forgotten: complex) -> complex:
     """1 - (1 - e^-r) / r, also where r is small: the difference would lose half of its digits."""
     if abs(r) < 0.02:
         total, part = 0j, r / 2

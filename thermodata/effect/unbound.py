@@ -24,13 +24,13 @@ class Unbound:
 def unbound(library: Mapping[str, Effect], channels: Mapping[str, Described]) -> list[Unbound]:
     """In the library's order. channels: that could be drivers, by name."""
     return [
-        Unbound(effect.name, effect.meaning, _why(effect, channels))
+        Unbound(effect.name, effect.meaning, _why_unbound(effect, channels))
         for effect in library.values()
         if effect.needs and not bindings(effect, channels)
     ]
 
 
-def _why(effect: Effect, channels: Mapping[str, Described]) -> str:
+def _why_unbound(effect: Effect, channels: Mapping[str, Described]) -> str:
     lacking = [
         n
         for n in effect.needs

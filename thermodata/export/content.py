@@ -117,14 +117,18 @@ def read_content(view: StoreView, campaign: str, test: str, step: str) -> Conten
         str(name): {k: str(v) for k, v in zip(_INFO, values, strict=True) if v not in (None, "")}
         for name, *values in found
     }
-    streams = _logged(view, campaign, test) if step == LOGGED else [_binned(view, campaign, test, step, channels)]
+    streams = (
+        _logged_streams(view, campaign, test)
+        if step == LOGGED
+        else [_binned_stream(view, campaign, test, step, channels)]
+    )
     absolute = clock == "absolute" and start_ns is not None
     return Content(
         campaign,
         test,
         {k: str(v) for k, v in about.items() if v not in (None, "")},
-        _plain(conditions),
-        _written(view, campaign, test),
+        _plain_conditions(conditions),
+        _written_conditions(view, campaign, test),
         channels,
         int(start_ns) if absolute else None,
         step,
@@ -132,7 +136,7 @@ def read_content(view: StoreView, campaign: str, test: str, step: str) -> Conten
     )
 
 
-def _plain(conditions: Any) -> dict[str, float | str]:
+def _plain_conditions(conditions: Any) -> dict[str, float | str]:
     given = json.loads(conditions) if isinstance(conditions, str) else (conditions or {})
     return {
         str(k): float(v) if isinstance(v, int | float) else v if isinstance(v, str) else json.dumps(v)
@@ -140,7 +144,7 @@ def _plain(conditions: Any) -> dict[str, float | str]:
     }
 
 
-def _written(view: StoreView, campaign: str, test: str) -> dict[str, str]:
+def _written_conditions(view: StoreView, campaign: str, test: str) -> dict[str, str]:
     rows = view.sql(
         "select t.value->'$.conditions' from campaign c, json_each(c.spec, '$.tests') t "
         "where c.campaign = ? and t.value->>'$.id' = ?",
@@ -150,14 +154,14 @@ def _written(view: StoreView, campaign: str, test: str) -> dict[str, str]:
     return {str(k): v if isinstance(v, str) else json.dumps(v) for k, v in (given or {}).items()}
 
 
-def _binned(view: StoreView, campaign: str, test: str, step: str, channels: Collection[str]) -> Stream:
+def _binned_stream(view: StoreView, campaign: str, test: str, step: str, channels: Collection[str]) -> Stream:
     """Without the columns of channels that other tests have."""
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
     values = {str(n): _column(table.column(n)) for n in table.column_names if n in channels}
     return Stream("grid", np.asarray(table.column("t_s").to_numpy(), np.float64), values, {})
 
 
-def _logged(view: StoreView, campaign: str, test: str) -> list[Stream]:
+def _logged_streams(view: StoreView, campaign: str, test: str) -> list[Stream]:
     wide = view.sql('select source, stream, "view" from wide where campaign = ?', [campaign]).fetchall()
     streams = []
     for source, stream, name in wide:

@@ -115,7 +115,7 @@ def _write_table(
         import pyarrow.parquet as pq
 
         note = {b"thermodata.units": json.dumps(units).encode(), b"thermodata.test": f"{campaign}/{test}".encode()}
-        table = _described(table, units, signs)
+        table = _with_metadata(table, units, signs)
         pq.write_table(table.replace_schema_metadata(note), part)
     else:
         import pyarrow.csv
@@ -129,7 +129,7 @@ def _write_table(
     return {"grid": table.num_rows}, list(table.column_names), units
 
 
-def _described(table: Any, units: Mapping[str, str], signs: Mapping[str, str]) -> Any:
+def _with_metadata(table: Any, units: Mapping[str, str], signs: Mapping[str, str]) -> Any:
     """The columns with their units and signs as metadata of each, and the times as what they are: in UTC. Without these
     where no clock was absolute."""
     import pyarrow as pa

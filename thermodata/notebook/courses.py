@@ -62,7 +62,7 @@ class Contributions(Shown):
 
     def _rows(self) -> list[dict[str, Any]]:
         return [
-            {"effect": name, "low": _least(y), "high": _most(y), "end": float(y[-1]) if len(y) else None}
+            {"effect": name, "low": _lowest(y), "high": _highest(y), "end": float(y[-1]) if len(y) else None}
             for name, y in self._found.contributions.items()
         ]
 
@@ -121,8 +121,8 @@ class Predictions(Shown, Sequence["Predicted"]):
                 "test": f"{p.campaign}/{p.test}",
                 "response": p.response,
                 "length": duration(float(p.t_s[-1] - p.t_s[0]) if len(p.t_s) else None),
-                "low": _least(p.predicted[p.known]),
-                "high": _most(p.predicted[p.known]),
+                "low": _lowest(p.predicted[p.known]),
+                "high": _highest(p.predicted[p.known]),
                 "unit": p.unit,
                 "rmse": p.rmse,
             }
@@ -164,9 +164,9 @@ class Predictions(Shown, Sequence["Predicted"]):
         return Plot(f"predictions of {self.model}", charts)
 
 
-def _least(y: Float1D) -> float | None:
+def _lowest(y: Float1D) -> float | None:
     return float(np.nanmin(y)) if np.isfinite(y).any() else None
 
 
-def _most(y: Float1D) -> float | None:
+def _highest(y: Float1D) -> float | None:
     return float(np.nanmax(y)) if np.isfinite(y).any() else None

@@ -48,7 +48,7 @@ def overviews(store: Store, models: Sequence[str], response: str | None = None) 
     limits: dict[str, float] = {}
     for model in models:
         loaded = load(store, model)
-        parts = _of(test_parts(loaded), response)
+        parts = _parts_of(test_parts(loaded), response)
         name, several = f"{loaded.fitted.spec.name} {loaded.identity}", len({p.response for p in parts}) > 1
         by_unit = in_one_unit(parts, _units(loaded).__getitem__)
         for unit, some in by_unit.items():
@@ -59,7 +59,7 @@ def overviews(store: Store, models: Sequence[str], response: str | None = None) 
     return made
 
 
-def _of(parts: Sequence[TestPart], response: str | None) -> list[TestPart]:
+def _parts_of(parts: Sequence[TestPart], response: str | None) -> list[TestPart]:
     return [p for p in parts if response in (None, p.response)]
 
 

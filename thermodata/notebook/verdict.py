@@ -78,13 +78,13 @@ class Verdict(Shown, Generic[F]):
 
     def add(self, *candidates: str | int, plain: bool = False) -> F:
         """A new version with candidates, by rank or id; with the first where none is named."""
-        return self.of.add(*map(self._own, candidates or (1,)), plain=plain)
+        return self.of.add(*map(self._id_of, candidates or (1,)), plain=plain)
 
     def confirm(self, candidate: str | int = 1) -> Confirmation:
         """Opens the locked tests for an effect of your choice; the look is counted."""
-        return self.of.confirm(self._own(candidate), self.result.response)
+        return self.of.confirm(self._id_of(candidate), self.result.response)
 
-    def _own(self, candidate: str | int) -> str | int:
+    def _id_of(self, candidate: str | int) -> str | int:
         """A rank is one of this verdict, whatever the model was asked since."""
         return next((c.id for c in self.result.candidates if str(c.rank) == str(candidate)), candidate)
 

@@ -220,7 +220,7 @@ def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
             for gain, formula, column in zip(effect.gains, formulas, columns.T, strict=True):
                 told = evaluate(with_parameters(formula, p, units), drivers.values, STEP_S)
                 if not np.allclose(told, column, rtol=1e-9, atol=1e-9 * max(1.0, float(np.abs(column).max()))):
-                    yield f"the law of '{gain.name}' gives something else than the basis, by {_most(told - column):.3g}"
+                    yield f"the law of '{gain.name}' gives something else than the basis, by {_peak(told - column):.3g}"
 
 
 def its_bases_are_its_basis(effect: Effect) -> Iterator[str]:
@@ -257,7 +257,7 @@ def a_gap_that_was_filled_right_changes_nothing(effect: Effect) -> Iterator[str]
             yield "it looks at which samples are valid: filling them is done before, and what is filled does not count"
 
 
-def _most(values: Float1D) -> float:
+def _peak(values: Float1D) -> float:
     return float(np.abs(values).max())
 
 

@@ -34,14 +34,14 @@ def its_units_are_those_of_the_library(effect: Effect) -> Iterator[str]:
     for param in effect.params:
         if param.unit not in _PLAIN and not _is_made_of(param.unit, own):
             yield f"'{param.name}' is in {param.unit!r}: a time is in min, a number in 1, others in {', '.join(own)}"
-    by = list(dict.fromkeys(u for need in effect.needs for u in _of(need)))
+    by = list(dict.fromkeys(u for need in effect.needs for u in _units_of(need)))
     for gain in effect.gains:
         first, slash, rest = (_ANY_UNIT.sub("", gain.unit) if "u" in by else gain.unit).partition("/")
         if first != "um" or (slash and not _is_made_of(rest.replace("/", "*"), [*by, *_TIMES])):
             yield f"'{gain.name}' is in {gain.unit!r}: it is um, or um by {', '.join([*by, *_TIMES])}"
 
 
-def _of(need: Need) -> list[str]:
+def _units_of(need: Need) -> list[str]:
     """What a gain may be by: the unit of a change of what drives it."""
     if need.quantity == "*":
         return ["u"]

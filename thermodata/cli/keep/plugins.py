@@ -35,7 +35,7 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
     package in the current folder.
     """
     if action == "new":
-        _new(session, name)
+        _write_new(session, name)
         return
     if action == "show":
         from thermodata.cli.keep.show_plugin import show
@@ -59,7 +59,7 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
     )
 
 
-def _new(session: Session, name: str | None) -> None:
+def _write_new(session: Session, name: str | None) -> None:
     from thermodata.cli.keep.new_plugin import write_plugin
 
     made = write_plugin(name, Path.cwd())

@@ -35,14 +35,14 @@ OF_EVERY_MODEL = {
 
 def show(session: Session, name: str | None, rows: Sequence[Mapping[str, Any]]) -> None:
     """Answer with one plugin. rows: what is installed (`plugins.installed`). UsageError names the nearest name."""
-    row = _chosen(name, rows)
+    row = _plugin_named(name, rows)
     answer: dict[str, Any] = {**row, "formats": None, **dict.fromkeys(_OF_EFFECTS), "text": None}
     if row["error"] is None:
         answer |= _effect(row["name"]) if row["kind"] == "effect" else _reader(row["name"])
     session.answer(answer, lambda: _text(answer))
 
 
-def _chosen(name: str | None, rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+def _plugin_named(name: str | None, rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     if not name:
         raise UsageError("which plugin?", expected="plugins show NAME", hint="thermodata plugins lists them")
     fitting = [r for r in rows if name in (r["name"], f"{r['kind']}-{r['name']}")]

@@ -30,7 +30,7 @@ def campaigns_command(session: Session, machine: str | None) -> None:
         if machine not in known:
             raise unknown_name("machine", machine, list(known))
         rows = [row for row in rows if machine in (row["machines"] or [])]
-    session.answer(rows, lambda: table([_shown(row) for row in rows], _COLUMNS) if rows else "no campaign")
+    session.answer(rows, lambda: table([_cells_of(row) for row in rows], _COLUMNS) if rows else "no campaign")
 
 
 _COLUMNS = [
@@ -45,7 +45,7 @@ _COLUMNS = [
 ]
 
 
-def _shown(row: dict[str, Any]) -> dict[str, Any]:
+def _cells_of(row: dict[str, Any]) -> dict[str, Any]:
     return {
         **row,
         "machine": ", ".join(row["machines"] or []),

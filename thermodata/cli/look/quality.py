@@ -47,7 +47,7 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
     found = rows_of(session, f"select * from ({query})", campaign, "campaign, test, source, channel, from_s")
     files = _files(session, campaign)
     said_by_log = not_measured(session.store(), campaign)
-    outside = _outside(files, {(row["campaign"], row["test"]) for row in said_by_log})
+    outside = _events_outside(files, {(row["campaign"], row["test"]) for row in said_by_log})
     rows = [with_reason(row) for row in [*found, *outside, *said_by_log]]
     losses = _losses(files, _signals(session, campaign))
 
@@ -94,7 +94,7 @@ def _files(session: Session, campaign: str | None) -> list[dict[str, Any]]:
     return files
 
 
-def _outside(files: list[dict[str, Any]], said_by_log: set[tuple[str, str]]) -> list[dict[str, Any]]:
+def _events_outside(files: list[dict[str, Any]], said_by_log: set[tuple[str, str]]) -> list[dict[str, Any]]:
     """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little.
     said_by_log: tests without `measuring`, in which a log said that nothing was measured."""
     from thermodata.view.lists.not_measured import OUTSIDE
@@ -117,12 +117,12 @@ def _signals(session: Session, campaign: str | None) -> set[tuple[str, str, str,
     """(campaign, test, source, signal without its unit) of every channel."""
     query = "select distinct campaign, test, source, signal from channel where signal is not null"
     return {
-        (row["campaign"], row["test"], row["source"], _bare(row["signal"]))
+        (row["campaign"], row["test"], row["source"], _name_without_unit(row["signal"]))
         for row in rows_of(session, f"select * from ({query})", campaign, "test, source")
     }
 
 
-def _bare(signal: str) -> str:
+def _name_without_unit(signal: str) -> str:
     from thermodata.reader.text import split_unit
 
     return split_unit(signal)[0].casefold()
@@ -144,7 +144,9 @@ def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]
             if row["test"] and row["test"] not in one["tests"]:
                 one["tests"].append(row["test"])
             signal = loss.get("signal")
-            read = signal is None or (row["campaign"], row["test"], row["source"], _bare(signal)) in signals
+            read = (
+                signal is None or (row["campaign"], row["test"], row["source"], _name_without_unit(signal)) in signals
+            )
             if row["source"] and row["source"] not in one["sources"] and (read or not row["test"]):
                 one["sources"].append(row["source"])
     for one in once.values():

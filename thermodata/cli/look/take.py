@@ -74,12 +74,12 @@ def export_command(
     def text() -> str:
         # the columns of several tests are alike mostly, and told with the first of those that are
         before = [None, *(one["columns"] for one in found)]
-        return "\n\n".join(_told(one, other) for one, other in zip(found, before, strict=False))
+        return "\n\n".join(_export_in_words(one, other) for one, other in zip(found, before, strict=False))
 
     session.answer(found[0] if len(tests) == 1 else found, text)
 
 
-def _told(one: Mapping[str, Any], before: list[str] | None) -> str:
+def _export_in_words(one: Mapping[str, Any], before: list[str] | None) -> str:
     """Of an export for a person: each column once, with its unit. before: the columns of the one told before it."""
     units = one["units"]
     alike = before == one["columns"]

@@ -121,13 +121,13 @@ def _sample(found: Found) -> str:
         name = raw.get("channel", "raw")
         lines += [(name, where + f"{raw['raw_value']!r}"), ("  SHA-256", raw["sha256"])]
         if raw.get("again"):
-            lines.append(("  read again", _again(raw["again"], raw["raw_value"])))
+            lines.append(("  read again", _read_again(raw["again"], raw["raw_value"])))
     total = sum_of(found)
     lines += ([("sum", total)] if total else []) + _plateaus(found)
     return "sample (rows count from 1)\n" + fields(lines)
 
 
-def _again(again: Found, stored: Any) -> str:
+def _read_again(again: Found, stored: Any) -> str:
     if again.get("problem") or again["file"] != "unchanged":
         return str(again.get("problem") or again["file"])
     same = again["value"] == stored or (again["value"] != again["value"] and stored != stored)

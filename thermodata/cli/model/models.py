@@ -35,11 +35,11 @@ def models_command(session: Session, campaign: str | None) -> None:
         if campaign not in known:
             raise unknown_name("campaign", campaign, known)
     kept = [m for m in rows if campaign is None or campaign in m.campaigns]
-    found = [{**_listed(m), "fitted_last": m.model == last} for m in kept]
+    found = [{**_answer_of(m), "fitted_last": m.model == last} for m in kept]
     session.answer(found, lambda: _text(found) if found else "no model was fitted yet")
 
 
-def _listed(model: ModelRow) -> dict[str, Any]:
+def _answer_of(model: ModelRow) -> dict[str, Any]:
     return {key: value for key, value in asdict(model).items() if key != "fitted"}
 
 

@@ -180,12 +180,12 @@ def _text(
     text = table(shown, columns) + (f"\n\n{PREDICTED_LEVEL}" if scored else "")
     if further:
         head = "beyond the tests that the model is fitted to, where nothing says that an effect goes on in proportion"
-        text += "\n".join(["", "", head, *(f"  {_beyond(one)}" for one in further)])
+        text += "\n".join(["", "", head, *(f"  {_beyond_in_words(one)}" for one in further)])
     text += "".join(f"\n\n{line}" for line in more)
     return text if out is None else f"{text}\n\n{out}"
 
 
-def _beyond(one: Beyond) -> str:
+def _beyond_in_words(one: Beyond) -> str:
     """'T11: coolant_heat (T_tank * on) goes to -61.3 um, in these tests to -44.0 um at most'."""
     drivers = f" ({', '.join(one.drivers)})" if one.drivers else ""
     most = f"to {number(one.fitted)} {one.unit} at most" if one.fitted else "nowhere to that side"

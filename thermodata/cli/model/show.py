@@ -60,7 +60,7 @@ def show_command(
         _as_stored(session, stored, lacking)
         return
     loaded = load(store, stored.model)
-    seen = [_only(s, effects) for s in see(loaded.fitted, loaded.data)]
+    seen = [_effects_only(s, effects) for s in see(loaded.fitted, loaded.data)]
     for picture in pictures:
         from thermodata.report.charts.system_png import draw
 
@@ -110,7 +110,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
     session.answer(payload, lambda: fit_text(stored.result))
 
 
-def _only(seen: SeenResponse, effects: tuple[str, ...]) -> SeenResponse:
+def _effects_only(seen: SeenResponse, effects: tuple[str, ...]) -> SeenResponse:
     from dataclasses import replace
 
     from thermodata.errors import unknown_name
@@ -236,10 +236,10 @@ def _slope(seen: SeenResponse, state: Against) -> str:
 
     if float(correlation_text(state.correlation)) == 0.0:
         return BY_THE_FIT
-    return f"{number(state.slope)} {_per(seen.unit, state.unit)}"
+    return f"{number(state.slope)} {_unit_per(seen.unit, state.unit)}"
 
 
-def _per(unit: str, over: str) -> str:
+def _unit_per(unit: str, over: str) -> str:
     if over in ("1", ""):
         return unit
     return f"{unit}/({over})" if " " in over else f"{unit}/{over}"

@@ -99,7 +99,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     base = _fitted(step, store, folder)
     found = _failing(step, store, base)
     _tell_missing(step, found)
-    better = _added(step, store, base, found)
+    better = _better_model(step, store, base, found)
     page = _reported(step, store, better.model, folder)
     claims = claims_of(found)
     claimed = claims[0] if claims else None
@@ -209,7 +209,7 @@ class _Better:
     after_um: float | None = None
 
 
-def _added(step: Step, store: Store, base: FitResult, found: Diagnosis) -> _Better:
+def _better_model(step: Step, store: Store, base: FitResult, found: Diagnosis) -> _Better:
     claims = claims_of(found)
     if claims:
         return _with_claims(step, store, base, claims)

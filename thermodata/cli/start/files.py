@@ -174,7 +174,7 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     from thermodata.reader.finding.explain import explain
     from thermodata.reader.finding.registry import failed_readers
 
-    found = [explain(path) for path in _each(files)]
+    found = [explain(path) for path in _files_below(files)]
     if not found:
         raise UsageError(
             "no file in the folder",
@@ -197,7 +197,7 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     return 2 if not all(e.reader for e in found) else 3 if failed_readers() else 0
 
 
-def _each(given: tuple[Path, ...]) -> list[Path]:
+def _files_below(given: tuple[Path, ...]) -> list[Path]:
     """Files as given, and those in archives; of a folder all below it, without hidden ones, links and what a store
     holds."""
     from thermodata.reader.files.stores import is_store, within_stores

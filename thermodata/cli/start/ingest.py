@@ -95,7 +95,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         {
             **row,
             "calibration": row.get("calibration", row.get("name")),
-            "ok": _checked(row),
+            "ok": _checks_hold(row),
             "offset": _offset(row),
         }
         for row in rows
@@ -158,7 +158,7 @@ def _of_the_moves(rows: list[dict[str, Any]], several: bool) -> list[str]:
     ]
 
 
-def _checked(row: dict[str, Any]) -> str:
+def _checks_hold(row: dict[str, Any]) -> str:
     """Whether the checks hold; of a gain that was declared, and no jump test measured, only what was declared was held
     against itself."""
     if not all(c.get("passed", True) for c in row.get("checks") or []):

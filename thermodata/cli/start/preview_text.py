@@ -20,7 +20,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     from thermodata.reader.finding.preview import Until, begin, preview
     from thermodata.reader.finding.registry import reader, sniff
 
-    meant, source, chosen = _declared(file, campaign)
+    meant, source, chosen = _declared_of(file, campaign)
     chosen = reader(name) if name else chosen
     if timezone is not None:
         source = Source(source.name, timezone, source.encoding, source.table, source.topics, source.options)
@@ -61,7 +61,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
     return found
 
 
-def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, Reader | None]:
+def _declared_of(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, Reader | None]:
     from thermodata.reader.finding.registry import reader
     from thermodata.schema.files.load import load_campaign
     from thermodata.store.raw.streams import declared

@@ -17,7 +17,7 @@ _PIECES = 4096  # joined to one that is written at once
 
 def plain(value: Any) -> Any:
     """Any result as JSON can hold it: models and dataclasses as mappings, NaN and infinity as null."""
-    opened = _opened(value)
+    opened = _as_json_value(value)
     if isinstance(opened, dict):
         return {k: plain(v) for k, v in opened.items()}
     if isinstance(opened, list):
@@ -27,25 +27,25 @@ def plain(value: Any) -> Any:
 
 def json_text(value: Any) -> Iterator[str]:
     """`plain(value)` as `json.dumps` writes it with an indent of two, in pieces of bounded size."""
-    pieces = _written(value, 0)
+    pieces = _pieces_of(value, 0)
     while piece := "".join(islice(pieces, _PIECES)):
         yield piece
 
 
-def _opened(value: Any) -> Any:
+def _as_json_value(value: Any) -> Any:
     """A value without what JSON does not know on its outermost level: a scalar, or a dict or list of any values."""
     if isinstance(value, float | Decimal):
         return float(value) if math.isfinite(value) else None
     if value is None or isinstance(value, str | int | bool):
         return value
     if hasattr(value, "model_dump"):
-        return _opened(value.model_dump(mode="json", by_alias=True))
+        return _as_json_value(value.model_dump(mode="json", by_alias=True))
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
     if isinstance(value, Mapping):
         return {str(k): v for k, v in value.items()}
     if hasattr(value, "tolist"):  # numpy scalars and arrays
-        return _opened(value.tolist())
+        return _as_json_value(value.tolist())
     if isinstance(value, list | tuple | set | frozenset):
         return list(value)
     if hasattr(value, "isoformat"):  # times; what is no time (NaT) differs from itself
@@ -53,8 +53,8 @@ def _opened(value: Any) -> Any:
     return str(value)
 
 
-def _written(value: Any, depth: int) -> Iterator[str]:
-    opened = value if type(value) in (dict, list) else _opened(value)
+def _pieces_of(value: Any, depth: int) -> Iterator[str]:
+    opened = value if type(value) in (dict, list) else _as_json_value(value)
     if type(opened) not in (dict, list) or not opened:
         yield _encoder(depth).encode(opened)
         return
@@ -68,7 +68,7 @@ def _written(value: Any, depth: int) -> Iterator[str]:
         return
     for k, v in opened.items() if named else enumerate(opened):
         yield f"{before}{inner}{_encoder(0).encode(str(k))}: " if named else before + inner
-        yield from _written(v, depth + 1)
+        yield from _pieces_of(v, depth + 1)
         before = ","
     yield outer + end
 

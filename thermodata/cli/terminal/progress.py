@@ -30,7 +30,7 @@ class Line:
     def begin(self, files: int, size_bytes: int) -> None:
         self.total = files
         self.bar.reset(total=max(1, size_bytes))
-        self._show()
+        self._show_rate()
 
     def samples(self, count: int) -> None:
         self.count += count
@@ -39,22 +39,22 @@ class Line:
         if read and self.sure:
             # never past what a file can have: the truth comes with its end
             guess = self.sure + round(self._in_file * self.sure / read)
-            self._to(min(guess, self.bar.total))
-        self._show()
+            self._move_to(min(guess, self.bar.total))
+        self._show_rate()
 
     def done(self, path: str, size_bytes: int) -> None:
         self.files, self.sure, self._in_file = self.files + 1, self.sure + size_bytes, 0
-        self._to(self.sure)
-        self._show()
+        self._move_to(self.sure)
+        self._show_rate()
 
     def say(self, text: str) -> None:
         self._text = text
-        self._show()
+        self._show_rate()
 
-    def _to(self, at: int) -> None:
+    def _move_to(self, at: int) -> None:
         self.bar.n = at
 
-    def _show(self) -> None:
+    def _show_rate(self) -> None:
         heed()
         elapsed = max(self.bar.format_dict["elapsed"], 1e-6)
         self.bar.set_postfix_str(

@@ -107,12 +107,12 @@ class _Maker:
             case law.Number(value) if value <= 0:
                 return of
             case law.Number(value):
-                return self._remembered(State("", "lag", of, f"tau = {value / 60:.9g} min", (self._rate(value),)))
+                return self._named_state(State("", "lag", of, f"tau = {value / 60:.9g} min", (self._rate(value),)))
             case law.Where(condition, law.Number(then), law.Number(other)) if then > 0 and other > 0:
                 condition = self.flat(condition, where)
                 rates = (self._rate(then), self._rate(other))
                 about = f"tau = {then / 60:.9g} min while {written(condition)}, else {other / 60:.9g} min"
-                return self._remembered(State("", "lag", of, about, rates, condition))
+                return self._named_state(State("", "lag", of, about, rates, condition))
         raise UsageError(
             "a time constant that changes steadily can't run in a control",
             where=where,
@@ -138,7 +138,7 @@ class _Maker:
         late = round(late) if abs(late - round(late)) < 1e-9 * late else late
         length = int(-(-late // 1)) + 1
         about = f"{dead_s / 60:.6g} min late"
-        return self._remembered(State("", "delay", of, about, length=length, late=float(late)))
+        return self._named_state(State("", "delay", of, about, length=length, late=float(late)))
 
     def _filter(self, of: law.Node, by: Filter, where: str) -> law.Node:
         total: law.Node = law.Binary("*", law.Number(by.direct), of) if by.direct else law.ZERO
@@ -154,9 +154,9 @@ class _Maker:
                 tau = mode.tau_s if mode.s is not None else None
                 about = f"tau = {tau / 60:.9g} min" if tau else f"pole z = {complex(mode.z or 0).real:.9g}"
                 rates = (Rate(forgotten.real, new.real, tau),)
-                parts.append((complex(mode.weight).real, self._remembered(State("", "lag", of, about, rates))))
+                parts.append((complex(mode.weight).real, self._named_state(State("", "lag", of, about, rates))))
             else:
-                pair = self._remembered(State("", "pair", of, "a complex pair of poles", (Rate(forgotten, new),)))
+                pair = self._named_state(State("", "pair", of, "a complex pair of poles", (Rate(forgotten, new),)))
                 weight = complex(mode.weight)
                 parts.append((2 * weight.real, law.Symbol(f"{pair.name}_re")))
                 parts.append((-2 * weight.imag, law.Symbol(f"{pair.name}_im")))
@@ -164,7 +164,7 @@ class _Maker:
             total = law.Binary("+", total, law.Binary("*", law.Number(complex(factor).real), part))
         return law.fold(total)
 
-    def _remembered(self, state: State) -> law.Symbol:
+    def _named_state(self, state: State) -> law.Symbol:
         """What a state gives; equal ones are one. state: not yet named."""
         key = replace(state, about="")  # which is for the reader: what is computed is the same
         if key not in self.states:

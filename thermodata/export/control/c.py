@@ -56,12 +56,12 @@ def _header(program: Program, body: Body, kind: str) -> list[str]:
         "",
         "/* What the control reads; set every valid_* to 1, or to 0 where it knows better. */",
         "typedef struct {",
-        *(f"    {_declared(v, kind)}" for v in body.variables if v.held == "in"),
+        *(f"    {_declaration(v, kind)}" for v in body.variables if v.held == "in"),
         f"}} {name}_inputs;",
         "",
         "/* What it remembers and answers: keep it over a power cut to go on from the last state. */",
         "typedef struct {",
-        *(f"    {_declared(v, kind)}" for v in body.variables if v.held in ("out", "kept")),
+        *(f"    {_declaration(v, kind)}" for v in body.variables if v.held in ("out", "kept")),
         f"}} {name};",
         "",
         f"void {name}_init({name} *m);",
@@ -98,7 +98,7 @@ def _source(name: str, body: Body, kind: str, single: bool) -> list[str]:
         "",
         f"void {name}_step({name} *m, const {name}_inputs *in)",
         "{",
-        *(f"    {_declared(v, kind, zero=True)}" for v in temps),
+        *(f"    {_declaration(v, kind, zero=True)}" for v in temps),
         *printer.block(body.statements, 1),
         *(f"    (void){v.name};" for v in temps),
         "}",
@@ -106,7 +106,7 @@ def _source(name: str, body: Body, kind: str, single: bool) -> list[str]:
     ]
 
 
-def _declared(v: Variable, real: str, zero: bool = False) -> str:
+def _declaration(v: Variable, real: str, zero: bool = False) -> str:
     about = f" /* {v.about} */" if v.about else ""
     if v.kind == "ring":
         return f"{real} {v.name}[{v.length}];{about}"

@@ -65,7 +65,10 @@ def as_data(program: Program) -> dict[str, Any]:
                 "of": _formula(s.of),
                 "about": s.about,
                 "while": None if s.condition is None else _formula(s.condition),
-                "rates": [{"forgotten": _plain(r.forgotten), "new": _plain(r.new), "tau_s": r.tau_s} for r in s.rates],
+                "rates": [
+                    {"forgotten": _as_json_number(r.forgotten), "new": _as_json_number(r.new), "tau_s": r.tau_s}
+                    for r in s.rates
+                ],
                 "late_cycles": s.late if s.kind == "delay" else None,
             }
             for s in program.states
@@ -138,7 +141,7 @@ def _column(values: list[float]) -> Any:
     return np.array(values, dtype=np.float64).reshape(-1, 1)
 
 
-def _plain(value: complex) -> float | list[float]:
+def _as_json_number(value: complex) -> float | list[float]:
     number = complex(value)
     return number.real if number.imag == 0 else [number.real, number.imag]
 

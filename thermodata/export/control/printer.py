@@ -98,21 +98,21 @@ class Printer:
                 return w.power.format(self.text(left, 6), self.text(right, 6))
             case law.Binary(operator, left, right):
                 rank = _RANK[operator]
-                return _in(f"{self.text(left, rank)} {operator} {self.text(right, rank + 1)}", rank < outer)
+                return _in_parentheses(f"{self.text(left, rank)} {operator} {self.text(right, rank + 1)}", rank < outer)
             case law.Where(condition, then, other) if w.choose is not None:
                 return w.choose.format(self.text(then, 0), self.text(condition), self.text(other, 0))
             case law.Compare(operator, left, right):
                 sign = {"==": w.equal, "!=": w.unequal}.get(operator, operator)
-                return _in(f"{self.text(left, 4)} {sign} {self.text(right, 4)}", outer >= 0)
+                return _in_parentheses(f"{self.text(left, 4)} {sign} {self.text(right, 4)}", outer >= 0)
             case law.Logic("not", of):
-                return _in(f"{w.no}{self.text(of[0], 2)}", outer > 1)
+                return _in_parentheses(f"{w.no}{self.text(of[0], 2)}", outer > 1)
             case law.Logic(operator, of):
                 word = w.both if operator == "and" else w.either
-                return _in(word.join(self.text(one, 2) for one in of), outer >= 0)
+                return _in_parentheses(word.join(self.text(one, 2) for one in of), outer >= 0)
         raise TypeError(f"{type(node).__name__} is no arithmetic")
 
 
-def _in(text: str, parentheses: bool) -> str:
+def _in_parentheses(text: str, parentheses: bool) -> str:
     return f"({text})" if parentheses else text
 
 

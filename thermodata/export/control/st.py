@@ -51,13 +51,13 @@ def structured_text(program: Program, real: str = "REAL", dialect: str = "st") -
         if held == "temp" and any(v.kind == "ring" for v in body.variables):
             section = [*section, Variable("k", "int", "temp")]
         if section:
-            lines += [f"    {word}", *(f"        {_declared(v, real, words)}" for v in section), "    END_VAR"]
+            lines += [f"    {word}", *(f"        {_declaration(v, real, words)}" for v in section), "    END_VAR"]
     lines += ["BEGIN"] if scl else []
     lines += printer.block(body.statements, 0)
     return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
 
 
-def _declared(v: Variable, real: str, words: Words) -> str:
+def _declaration(v: Variable, real: str, words: Words) -> str:
     kind = {"real": real, "int": "DINT", "bool": "BOOL", "ring": f"ARRAY[0..{v.length - 1}] OF {real}"}[v.kind]
     start = " := TRUE" if v.kind == "bool" and v.start else ""
     about = f" {words.comment.format(v.about)}" if v.about else ""

@@ -66,13 +66,13 @@ def search(body: Body) -> None:
     outer, body.statements = body.statements, inner
     for d in drives:
         inner.append(If(var(f"open_{d.name}"), tuple(_reading(body, d, start))))
-    inner.append(If(_full(start), (Assign(COUNT, law.ZERO), Assign(BINS, law.Binary("+", var(BINS), law.ONE)))))
+    inner.append(If(_is_bin_full(start), (Assign(COUNT, law.ZERO), Assign(BINS, law.Binary("+", var(BINS), law.ONE)))))
     body.statements = outer
     body.statements.append(Say("Where temperatures count from: the mean of the first minutes, while they stand still"))
     body.statements.append(If(law.Compare("<", var(BINS), law.Number(start.bins - 0.5)), tuple(inner)))
 
 
-def _full(start: Start) -> law.Node:
+def _is_bin_full(start: Start) -> law.Node:
     return law.Compare(">", var(COUNT), law.Number(start.cycles - 0.5))
 
 
@@ -85,11 +85,11 @@ def _reading(body: Body, d: Drive, start: Start) -> Iterator[Statement]:
     yield from inner
     yield Assign(total, law.Binary("+", var(total), deviation))
     yield Assign(MEAN, law.Binary("+", var(f"first_{d.name}"), law.Binary("/", var(total), var(COUNT))))
-    yield If(_before(1), (Assign(ref, var(MEAN)),))
-    yield If(_full(start), (Assign(total, law.ZERO), *_bin(d, start)))
+    yield If(_is_before_bin(1), (Assign(ref, var(MEAN)),))
+    yield If(_is_bin_full(start), (Assign(total, law.ZERO), *_bin(d, start)))
 
 
-def _before(bins: int) -> law.Node:
+def _is_before_bin(bins: int) -> law.Node:
     return law.Compare("<", var(BINS), law.Number(bins - 0.5))
 
 
@@ -111,7 +111,11 @@ def _bin(d: Drive, start: Start) -> Iterator[Statement]:
     )
     third = (If(law.Logic("or", (var(moves), away)), (of_three, close), (average,)),)
     later = (If(away, (close,), (average,)),)
-    yield If(_before(1), (Assign(one, mean),), (If(_before(2), second, (If(_before(3), third, later),)),))
+    yield If(
+        _is_before_bin(1),
+        (Assign(one, mean),),
+        (If(_is_before_bin(2), second, (If(_is_before_bin(3), third, later),)),),
+    )
 
 
 def _sum(*parts: tuple[float, law.Node]) -> law.Node:

@@ -27,7 +27,7 @@ def together(task: Task, count: int = 1, memory_mib: int | None = None) -> list[
     children, gate = [], context.Barrier(count)
     for _ in range(count):
         here, there = context.Pipe(duplex=False)
-        child = context.Process(target=_run, args=(task, there, gate, memory_mib), daemon=True)
+        child = context.Process(target=_run_in_child, args=(task, there, gate, memory_mib), daemon=True)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # threads of libraries that are idle
             child.start()
@@ -47,7 +47,7 @@ def together(task: Task, count: int = 1, memory_mib: int | None = None) -> list[
     return answers
 
 
-def _run(task: Task, answer: Connection, gate: Barrier, memory_mib: int | None) -> None:
+def _run_in_child(task: Task, answer: Connection, gate: Barrier, memory_mib: int | None) -> None:
     if memory_mib is not None and sys.platform == "linux":
         import resource
 

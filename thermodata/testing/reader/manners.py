@@ -68,10 +68,10 @@ def the_file_is_closed_after_use(case: Case, path: Path, source: Source) -> None
                 load(reader, copy, source)
             gc.collect()  # the exception's traceback may have held frames, with their files
             _closed(copy, f"reading its first {size} bytes")
-        _kept(reader)
+        _keep_alive(reader)
 
 
-def _kept(reader: Reader) -> None:
+def _keep_alive(reader: Reader) -> None:
     """The reader lives until here: what it holds on to is held on to."""
 
 

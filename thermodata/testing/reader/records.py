@@ -85,7 +85,7 @@ class Cell:
     @property
     def may_be_empty(self) -> bool:
         """Whether marks that are no blanks part the cell from its neighbours, so that an empty one is seen."""
-        before, after = _beside(self.record.own, self.first, self.last)
+        before, after = _letters_beside(self.record.own, self.first, self.last)
         return before in _MARKS and after in (*_MARKS, b"\r", b"\n")
 
     def replaced(self, by: bytes) -> bytes:
@@ -133,7 +133,7 @@ def two_records(case: Case, path: Path, source: Source, whole: Data) -> tuple[Re
 
 def cells(record: Record, whole: Data) -> Iterator[Cell]:
     """Where the numbers of a record stand, each in a cell of its own and once in the record."""
-    find = _written if record.is_text else _packed
+    find = _written_number if record.is_text else _packed_number
     for (stream, name), column in whole.values.items():
         if stream not in record.rows or column.dtype.kind not in "iuf":
             continue
@@ -190,44 +190,44 @@ def _records(content: bytes, whole: Data) -> Iterator[tuple[Part, Part]]:
         if column.dtype.kind != "f" or column.size < middle + 2:
             continue
         for form in _FLOATS:
-            a, b = (_only(content, struct.pack(form, value)) for value in column[middle : middle + 2].tolist())
+            a, b = (_only_place(content, struct.pack(form, value)) for value in column[middle : middle + 2].tolist())
             if a is None or b is None or not 0 < b - a <= LONGEST_RECORD:
                 continue
             for begin in range(a, max(-1, a - (b - a)), -1):
                 yield (begin, begin + b - a), (begin + b - a, begin + 2 * (b - a))
 
 
-def _only(content: bytes, wanted: bytes) -> int | None:
+def _only_place(content: bytes, wanted: bytes) -> int | None:
     return content.find(wanted) if content.count(wanted) == 1 else None
 
 
-def _packed(own: bytes, value: Any) -> tuple[int, int, str] | None:
+def _packed_number(own: bytes, value: Any) -> tuple[int, int, str] | None:
     for form in _FLOATS:
-        at = _only(own, struct.pack(form, float(value)))
+        at = _only_place(own, struct.pack(form, float(value)))
         if at is not None:
             return at, at + struct.calcsize(form), form
     return None
 
 
-def _written(own: bytes, value: Any) -> tuple[int, int, str] | None:
+def _written_number(own: bytes, value: Any) -> tuple[int, int, str] | None:
     """Where the number stands between marks that part cells, and nowhere else."""
     for pattern in _BARE:
-        found = [match.span() for match in pattern.finditer(own) if _is(match[0], float(value))]
+        found = [match.span() for match in pattern.finditer(own) if _is_value(match[0], float(value))]
         if len(found) == 1 and _stands_alone(own, *found[0]):
             return *found[0], "text"
     return None
 
 
-def _is(written: bytes, value: float) -> bool:
+def _is_value(written: bytes, value: float) -> bool:
     return bool(np.isclose(float(written.replace(b",", b".")), value, rtol=1e-6, atol=0))
 
 
 def _stands_alone(own: bytes, first: int, last: int) -> bool:
-    before, after = _beside(own, first, last)
+    before, after = _letters_beside(own, first, last)
     apart = own[last : last + 1].isspace() and own[first - 1 : first].isspace()
     return apart or (before in (*_MARKS, b":", b"") and after in (*_MARKS, b"}", b"]", b"\r", b"\n"))
 
 
-def _beside(own: bytes, first: int, last: int) -> tuple[bytes, bytes]:
+def _letters_beside(own: bytes, first: int, last: int) -> tuple[bytes, bytes]:
     """The letter before and behind a cell, past blanks and quotes."""
     return own[:first].rstrip(b" \"'")[-1:], own[last:].lstrip(b" \"'")[:1]

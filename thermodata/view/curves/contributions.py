@@ -120,13 +120,13 @@ def contributions(store: Store, models: Sequence[str], campaign: str, test: str)
     found = []
     for response, pinned in by_model[models[0]].items():
         there = {m: known[response] for m, known in by_model.items() if response in known}
-        found.append(_beside(pinned, there))
+        found.append(_contributions_beside(pinned, there))
     return found
 
 
-def _beside(pinned: Prediction, there: Mapping[str, Prediction]) -> Contributions:
-    curves = {m: _on(pinned.t_s, p, p.contributions) for m, p in there.items()}
-    deviations = {m: _on(pinned.t_s, p, p.deviations) for m, p in there.items()}
+def _contributions_beside(pinned: Prediction, there: Mapping[str, Prediction]) -> Contributions:
+    curves = {m: _at_times(pinned.t_s, p, p.contributions) for m, p in there.items()}
+    deviations = {m: _at_times(pinned.t_s, p, p.deviations) for m, p in there.items()}
     names = dict.fromkeys(name for known in curves.values() for name in known)
     sizes = [float(np.nanmax(np.abs(y), initial=0.0)) for known in curves.values() for y in known.values()]
     effects = tuple(
@@ -142,7 +142,7 @@ def _beside(pinned: Prediction, there: Mapping[str, Prediction]) -> Contribution
     return Contributions(pinned.campaign, pinned.test, pinned.response, tuple(there), pinned.t_s, effects)
 
 
-def _on(t_s: Float1D, p: Prediction, known: Mapping[str, Float1D]) -> dict[str, Float1D]:
+def _at_times(t_s: Float1D, p: Prediction, known: Mapping[str, Float1D]) -> dict[str, Float1D]:
     """On the pinned one's times; NaN beyond what the model predicts."""
     if np.array_equal(t_s, p.t_s):
         return dict(known)
@@ -164,14 +164,14 @@ def _effect(
     values = [nothing if y is None else y for y in curves]
     peaks = tuple(None if y is None else _peak(t_s, y, r) for y, r in zip(curves, reaches, strict=True))
     apart = tuple(
-        _apart(t_s, y - values[0], None if r is None or reaches[0] is None else r + reaches[0], least)
+        _differences(t_s, y - values[0], None if r is None or reaches[0] is None else r + reaches[0], least)
         for y, r in zip(values[1:], reaches[1:], strict=True)
     )
     differs = any(abs(a.peak.value) > least and a.apart_s != 0 for a in apart)
     return Effect(name, curves, deviations, peaks, apart, differs)
 
 
-def _apart(t_s: Float1D, curve: Float1D, reach: Float1D | None, least: float) -> ContributionsApart:
+def _differences(t_s: Float1D, curve: Float1D, reach: Float1D | None, least: float) -> ContributionsApart:
     peak = _peak(t_s, curve, reach)
     if reach is None:
         return ContributionsApart(curve, None, peak, None)

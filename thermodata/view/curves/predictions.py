@@ -58,14 +58,14 @@ def predictions(store: Store, model: str, campaign: str, test: str) -> list[Pred
                     columns["predicted"],
                     columns["residual"],
                     np.asarray(got["valid"], dtype=bool),
-                    _of(columns, _CONTRIBUTION),
-                    _of(columns, _DEVIATION),
+                    _columns_begun(columns, _CONTRIBUTION),
+                    _columns_begun(columns, _DEVIATION),
                 )
             )
     return found
 
 
-def _of(columns: Mapping[str, Float1D], begun: str) -> dict[str, Float1D]:
+def _columns_begun(columns: Mapping[str, Float1D], begun: str) -> dict[str, Float1D]:
     return {n.removeprefix(begun): v for n, v in columns.items() if n.startswith(begun)}
 
 
@@ -102,12 +102,12 @@ def residual_strips(
         if value is not None:
             strips[names[i]][k] = value
     return {
-        key: _nearest(strip, sampled[key]) if few[key] and sampled[key].any() else strip
+        key: _strip_of_nearer(strip, sampled[key]) if few[key] and sampled[key].any() else strip
         for key, strip in strips.items()
     }
 
 
-def _nearest(strip: Float1D, sampled: Bool1D) -> Float1D:
+def _strip_of_nearer(strip: Float1D, sampled: Bool1D) -> Float1D:
     """The strip of a short test, whose stretches between two samples have that of the nearer one: they were measured,
     only less often than they are drawn. sampled: shape (bins,), whether a sample lies there."""
     at = np.flatnonzero(sampled)

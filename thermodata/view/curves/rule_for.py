@@ -54,7 +54,9 @@ def rules_for(store: Store, found: Prediction, channels: list[Channel], from_s: 
     binned = StoreView(store).binned(found.campaign, found.test, step).df()
     unit = next((c.unit for c in channels if c.name == found.response), "um")
     ranged = range_rule(found, unit, from_s, to_s)
-    states = {n: _at(found.t_s, binned["t_s"].to_numpy(), binned[n].to_numpy(), step) for n in names if n in binned}
+    states = {
+        n: _bin_of_time(found.t_s, binned["t_s"].to_numpy(), binned[n].to_numpy(), step) for n in names if n in binned
+    }
     return [*([ranged] if ranged else []), *rules(found, states, from_s, to_s)]
 
 
@@ -154,7 +156,7 @@ def _round(low: float, high: float) -> float:
     return middle
 
 
-def _at(t_s: Float1D, bins_s: Float1D, values: Float1D, step: float) -> Float1D:
+def _bin_of_time(t_s: Float1D, bins_s: Float1D, values: Float1D, step: float) -> Float1D:
     """The bin that a time lies in; NaN where there is none."""
     place = np.searchsorted(bins_s, t_s + step / 2) - 1
     inside = (place >= 0) & (place < len(bins_s))

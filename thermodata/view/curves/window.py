@@ -220,17 +220,17 @@ def _window(
             inside = con.execute(f"select count(*) from {table} where t_s between ? and ?", [low, high]).fetchone()
             count = inside[0] if inside else 0
     if not names or not count:
-        return _nothing(names)
+        return _empty_window(names)
     stretch = _Stretch(con, table, {n: asked.value(n) for n in names}, low, high)
     if count > asked.most:
         window, count = stretch.binned(asked.most // 2)
         if count > asked.most:
             return window
         if not count:
-            return _nothing(names)
+            return _empty_window(names)
     # few samples, also where a logger that was fast elsewhere promised many
     return stretch.each()
 
 
-def _nothing(names: Sequence[str]) -> Window:
+def _empty_window(names: Sequence[str]) -> Window:
     return Window(np.empty(0), {n: np.empty(0) for n in names}, True)

@@ -104,12 +104,12 @@ class _Binning:
                 files.append(path)
         columns = [c for c in group.columns if not c.text and self.wanted(c.name)]
         off = {(test, name) for campaign, test, name in self.shifted if campaign == group.campaign}
-        numbers = self._asked(files, columns, {name for _, name in off})
+        numbers = self._queried(files, columns, {name for _, name in off})
         for test, slices in _by_test(numbers["file__index"], owners).items():
             own = {name for at, name in off if at == test}
             self._collect(group, test, _Rows(numbers, slices, own), columns)
 
-    def _asked(self, files: Sequence[str], columns: Sequence[Column], off: Collection[str]) -> dict[str, Array]:
+    def _queried(self, files: Sequence[str], columns: Sequence[Column], off: Collection[str]) -> dict[str, Array]:
         """Column -> shape (rows,), of all files in their order. off: names of sensors that are off in a test."""
         # file_index instead of filename: hashing a number a row instead of a text is twice as fast
         values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)

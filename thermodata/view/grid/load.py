@@ -52,7 +52,7 @@ def load_dataset(
             hint="30 s to 5 min suit what is thermal",
         )
     wanted = [campaigns] if isinstance(campaigns, str) else list(dict.fromkeys(campaigns))
-    with _opened(store).reader() as con:
+    with _as_store(store).reader() as con:
         found = versions(con)
         for campaign in wanted:
             if campaign not in found:
@@ -96,7 +96,7 @@ def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
     return union
 
 
-def _opened(store: Store | str | Path) -> Store:
+def _as_store(store: Store | str | Path) -> Store:
     from thermodata.store import Store
 
     return Store(store) if isinstance(store, str | Path) else store
@@ -147,12 +147,14 @@ def _test_data(
         start_unix_s=None if row["clock"] == "relative" else binned.zero_ns / 1e9,
         machine=row["machine"],
         channels=channels,
-        logged={name: _logged(binned.series[name], step_s) for name in names if not binned.series[name].on_change},
+        logged={
+            name: _between_times_s(binned.series[name], step_s) for name in names if not binned.series[name].on_change
+        },
         recorded=recorded.get((row["campaign"], row["test"]), {}),
     )
 
 
-def _logged(series: Series, step_s: float) -> tuple[float, float]:
+def _between_times_s(series: Series, step_s: float) -> tuple[float, float]:
     """Between which times its valid samples lie [s]."""
     if not series.k.size:
         return np.inf, -np.inf

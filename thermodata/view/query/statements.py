@@ -28,11 +28,11 @@ def check_statement(statement: Any, folder: Path) -> None:
     kind, text = statement.type.name, statement.query
     copies = any((m["word"] or "").casefold() == "copy" for m in _TOKEN.finditer(text))
     if kind not in _READING or (kind in ("PRAGMA", "CALL") and not _LOOKING.match(text)):
-        raise _refused(text, kind)
+        raise _refusal(text, kind)
     if kind == "COPY":
         _check_target(text, folder)
     elif copies and kind in ("EXPLAIN", "MULTI"):
-        raise _refused(text, f"COPY inside of {kind}")
+        raise _refusal(text, f"COPY inside of {kind}")
 
 
 def _check_target(text: str, folder: Path) -> None:
@@ -46,10 +46,10 @@ def _check_target(text: str, folder: Path) -> None:
         if match["word"] or match["text"] or match["mark"]:
             before = (match["word"] or "").casefold()
     if len(targets) != 1 or targets[0][0] != "'":
-        raise _refused(text, "COPY without one file that it names")
+        raise _refusal(text, "COPY without one file that it names")
     name = targets[0][1:-1].replace("''", "'")
-    target = _real(name[7:] if name.startswith("file://") else name)
-    store = _real(folder)
+    target = _real_path(name[7:] if name.startswith("file://") else name)
+    store = _real_path(folder)
     if target == store or store in target.parents or target in store.parents:
         raise UsageError(
             "a query writes nothing into the store's folder",
@@ -60,11 +60,11 @@ def _check_target(text: str, folder: Path) -> None:
         )
 
 
-def _real(path: Path | str) -> Path:
+def _real_path(path: Path | str) -> Path:
     return Path(os.path.normcase(os.path.realpath(os.path.expanduser(path))))
 
 
-def _refused(text: str, got: str) -> UsageError:
+def _refusal(text: str, got: str) -> UsageError:
     return UsageError(
         "a query only reads the store",
         where=text.strip()[:200],

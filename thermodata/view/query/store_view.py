@@ -172,11 +172,11 @@ class StoreView:
 
     def tests(self, campaign: str | None = None) -> Rows:
         """The table `test`."""
-        return self.sql(f"select * from test{_where(campaign)}")
+        return self.sql(f"select * from test{_where_campaign(campaign)}")
 
     def channels(self, campaign: str | None = None) -> Rows:
         """The table `channel`: one row a test and channel, with unit, place, axis and sign."""
-        return self.sql(f"select * from channel{_where(campaign)}")
+        return self.sql(f"select * from channel{_where_campaign(campaign)}")
 
     def dataset(
         self, campaigns: str | Sequence[str], step_s: float = 30.0, channels: Collection[str] | None = None
@@ -196,5 +196,5 @@ def _argument(value: str | Sequence[str] | None) -> str:
     return f"[{', '.join(map(literal, value))}]::varchar[]"
 
 
-def _where(campaign: str | None) -> str:
+def _where_campaign(campaign: str | None) -> str:
     return "" if campaign is None else f" where campaign = {literal(campaign)}"

@@ -83,10 +83,10 @@ def column_units(
         if comment is None and source in known.channels:
             unit = known.channels[source] if _is_channel(known, tables, source) else None
         elif comment is not None and _OF_CHANNEL in comment:
-            unit = _one(map(known.channels.get, _of_rows(relation) or ()))
+            unit = _one_unit(map(known.channels.get, _of_rows(relation) or ()))
         elif comment is not None and _OF_RESPONSE in comment:
             rows = _of_rows(relation)
-            unit = _one(map(known.of_errors, known.responses if rows is None else rows))
+            unit = _one_unit(map(known.of_errors, known.responses if rows is None else rows))
         else:
             found = _IN_BRACKETS.match(comment or "")
             unit = found[1] if found else None
@@ -169,6 +169,6 @@ def _of_rows(relation: duckdb.DuckDBPyRelation) -> list[str] | None:
     return [str(c) for (c,) in relation.project(f'"{name}"').distinct().fetchall()]
 
 
-def _one(units: Iterable[str | None]) -> str | None:
+def _one_unit(units: Iterable[str | None]) -> str | None:
     found = set(units)
     return found.pop() if len(found) == 1 else None

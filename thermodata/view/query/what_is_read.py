@@ -49,7 +49,7 @@ def _reads(tree: Any, only: Mapping[str, frozenset[str]], views: frozenset[str])
         yield Read(str(name), {key: frozenset([text]) for key, text in asked if text is not None})
     for key, part in tree.items():
         # of several tables a condition may be of any
-        own = _held(tree.get("where_clause")) if key == "from_table" and _is_table(part) else {}
+        own = _keys_held(tree.get("where_clause")) if key == "from_table" and _is_table(part) else {}
         yield from _reads(part, own, views)
 
 
@@ -57,14 +57,14 @@ def _is_table(tree: Any) -> bool:
     return isinstance(tree, dict) and tree.get("type") == "BASE_TABLE"
 
 
-def _held(condition: Any) -> dict[str, frozenset[str]]:
+def _keys_held(condition: Any) -> dict[str, frozenset[str]]:
     """What must hold of the keys, by equality or by a list."""
     if not isinstance(condition, dict):
         return {}
     if condition.get("type") == "CONJUNCTION_AND":
         found: dict[str, frozenset[str]] = {}
         for part in condition.get("children", ()):
-            for key, values in _held(part).items():
+            for key, values in _keys_held(part).items():
                 found[key] = found.get(key, values) & values
         return found
     if condition.get("type") == "COMPARE_EQUAL":

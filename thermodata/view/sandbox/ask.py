@@ -41,7 +41,7 @@ class Table:
 
 def ask(store: Path | str, query: str, limits: Limits = Limits()) -> Table:
     """The rows of one SELECT over a store. UsageError where it is refused, fails, or goes beyond a limit."""
-    with _running(store, query, "table", limits) as (head, _):
+    with _child_answering(store, query, "table", limits) as (head, _):
         columns = tuple((str(name), str(kind)) for name, kind in head["columns"])
         return Table(columns, tuple(tuple(row) for row in head["rows"]), bool(head["more"]), head["units"])
 
@@ -49,14 +49,16 @@ def ask(store: Path | str, query: str, limits: Limits = Limits()) -> Table:
 def stream(store: Path | str, query: str, form: Form, limits: Limits = Limits()) -> Iterator[bytes]:
     """The same as CSV or Parquet, in pieces; errors come before the first piece. An answer that goes beyond a limit
     once it began ends with an error, and never looks whole."""
-    with _running(store, query, form, limits) as (_, body):
+    with _child_answering(store, query, form, limits) as (_, body):
         yield b""  # begun: from here on there is an answer
         while piece := body.read(_CHUNK):
             yield piece
 
 
 @contextmanager
-def _running(store: Path | str, query: str, form: Form, limits: Limits) -> Iterator[tuple[dict[str, Any], IO[bytes]]]:
+def _child_answering(
+    store: Path | str, query: str, form: Form, limits: Limits
+) -> Iterator[tuple[dict[str, Any], IO[bytes]]]:
     request = {
         "store": str(Path(store).absolute()),
         "query": query,

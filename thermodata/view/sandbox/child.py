@@ -29,16 +29,16 @@ def main(source: IO[bytes], sink: IO[bytes]) -> int:
         _limit(request["cpu_s"], request["memory_mb"])
         _answer(request, sink)
     except ThermodataError as error:
-        return _refuse(sink, error)
+        return _write_refusal(sink, error)
     except MemoryError:
-        return _refuse(sink, _too_much(request["memory_mb"]))
+        return _write_refusal(sink, _too_much(request["memory_mb"]))
     except Exception as error:
         # by name: an error of DuckDB's is the query's, whatever its class is
         if not type(error).__module__.lstrip("_").startswith("duckdb"):
             raise
         if type(error).__name__ == "OutOfMemoryException":
-            return _refuse(sink, _too_much(request["memory_mb"]))
-        return _refuse(sink, UsageError("the query fails", got=str(error).strip()))
+            return _write_refusal(sink, _too_much(request["memory_mb"]))
+        return _write_refusal(sink, UsageError("the query fails", got=str(error).strip()))
     return 0
 
 
@@ -50,7 +50,7 @@ def _answer(request: dict[str, Any], sink: IO[bytes]) -> None:
 
     con = enclosed(Store(Path(request["store"])), request["memory_mb"])
     check_select(con, request["query"])
-    relation = _asked(con, request["query"])
+    relation = _relation_of(con, request["query"])
     if relation is None:
         raise UsageError(
             "the query gives no table",
@@ -71,7 +71,7 @@ def _answer(request: dict[str, Any], sink: IO[bytes]) -> None:
     _stream(relation.limit(most), request["form"], sink)
 
 
-def _asked(con: duckdb.DuckDBPyConnection, query: str) -> duckdb.DuckDBPyRelation | None:
+def _relation_of(con: duckdb.DuckDBPyConnection, query: str) -> duckdb.DuckDBPyRelation | None:
     """The relation of a query; UsageError where DuckDB refuses it, with what `thermodata sql` says to do."""
     import duckdb
 
@@ -171,7 +171,7 @@ def _too_much(memory_mb: int) -> UsageError:
     )
 
 
-def _refuse(sink: IO[bytes], error: ThermodataError) -> int:
+def _write_refusal(sink: IO[bytes], error: ThermodataError) -> int:
     _line(sink, {"refused": {k: getattr(error, k) for k in ("what", "where", "expected", "got", "hint", "exit_code")}})
     return error.exit_code
 

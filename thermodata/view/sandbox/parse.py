@@ -42,30 +42,30 @@ def check_select(con: duckdb.DuckDBPyConnection, query: str) -> None:
         raise UsageError("the query can't be read", got=str(error).strip(), hint=reserved_hint(query)) from error
     if len(statements) != 1 or statements[0].type.name != "SELECT":
         got = ", ".join(s.type.name for s in statements) or "nothing"
-        raise _refused(query, "one SELECT", got)
+        raise _refusal(query, "one SELECT", got)
     row = con.execute("select json_serialize_sql(?)", [statements[0].query]).fetchone()
     tree = json.loads(row[0]) if row else {"error": True}
     if tree.get("error"):
-        raise _refused(query, "one SELECT", str(tree.get("error_message", "something else")))
+        raise _refusal(query, "one SELECT", str(tree.get("error_message", "something else")))
     own = {
         name for (name,) in con.execute("select function_name from duckdb_functions() where not internal").fetchall()
     }
-    for node in _walk(tree["statements"]):
+    for node in _nodes_of(tree["statements"]):
         kind = str(node.get("type", ""))
         if kind.endswith("_NODE") and kind not in _NODES:
-            raise _refused(query, "one SELECT", kind.removesuffix("_NODE"))
+            raise _refusal(query, "one SELECT", kind.removesuffix("_NODE"))
         name = str(node.get("function_name", "")).lower()
         if kind == "TABLE_FUNCTION":
             called = str(node["function"].get("function_name", "")).lower()
             if called not in _MAKE_ROWS and called not in own:
-                raise _refused(query, "tables, views and macros of the store", f"{called}(...)")
+                raise _refusal(query, "tables, views and macros of the store", f"{called}(...)")
         elif kind == "BASE_TABLE" and str(node.get("table_name", "")).lower() in _SETTINGS:
-            raise _refused(query, "tables, views and macros of the store", str(node["table_name"]))
+            raise _refusal(query, "tables, views and macros of the store", str(node["table_name"]))
         elif name.startswith(_FOREIGN):
-            raise _refused(query, "functions of values", f"{name}(...)")
+            raise _refusal(query, "functions of values", f"{name}(...)")
 
 
-def _walk(value: Any) -> Iterator[dict[str, Any]]:
+def _nodes_of(value: Any) -> Iterator[dict[str, Any]]:
     todo = [value]
     while todo:  # a query may be nested deeper than Python's stack
         part = todo.pop()
@@ -76,7 +76,7 @@ def _walk(value: Any) -> Iterator[dict[str, Any]]:
             todo.extend(part)
 
 
-def _refused(query: str, expected: str, got: str) -> UsageError:
+def _refusal(query: str, expected: str, got: str) -> UsageError:
     return UsageError(
         "this query is not run here",
         where=query.strip()[:200],

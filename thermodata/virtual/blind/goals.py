@@ -27,18 +27,18 @@ def overall(trials: Trials) -> list[Row]:
     first = [_count("one strong, logged: ranked first", strong, _leads, ">= 97 %")]
     first += [_count(f"one strong, logged: ranked first by {m}", tried, partial(_rival_leads, m), "") for m in RIVALS]
     found = [
-        _count("one strong, logged: named right", strong, _named, ">= 90 %"),
+        _count("one strong, logged: named right", strong, _is_named_right, ">= 90 %"),
         _count("one strong, logged: named wrong", strong, _ends("wrong"), "<= 2 %"),
         *first,
-        _count("one, logged, any stratum: named right", one, _named, ""),
+        _count("one, logged, any stratum: named right", one, _is_named_right, ""),
         _count("one, logged, any stratum: named wrong", one, _ends("wrong"), "<= 2 %"),
         _count("nothing hidden: false claim", none, _ends("false claim"), "<= 2 %"),
         _count("nothing hidden: none or refine", none, lambda t: t["verdict"] in ("none", "refine"), ""),
         _count("cause not logged: false claim", blind, _ends("false claim"), "<= 2 %"),
         _count("cause not logged: unknown", blind, lambda t: t["verdict"] == "unknown", ""),
         _count("outside of the library: false claim", outside, _ends("false claim"), ""),
-        _count("two hidden: all found", hiding(2), _named, ">= 80 %"),
-        _count("three hidden: all found", hiding(3), _named, ">= 80 %"),
+        _count("two hidden: all found", hiding(2), _is_named_right, ">= 80 %"),
+        _count("three hidden: all found", hiding(3), _is_named_right, ">= 80 %"),
         _count("several hidden: some found, nothing wrong", several, _ends(*NAMED, "told", "alike", "some"), ""),
         _count("several hidden: something wrong", several, _ends("wrong"), ""),
         _count("a cause to name: ranked first", able, _leads, ""),
@@ -57,7 +57,7 @@ def _share(question: str, value: Row | None, goal: str) -> Row:
     return {"question": question, "value": value, "goal": goal}
 
 
-def _named(t: Mapping[str, Any]) -> bool:
+def _is_named_right(t: Mapping[str, Any]) -> bool:
     return bool(t["outcome"] in NAMED)
 
 

@@ -50,11 +50,13 @@ def reliability(trials: Sequence[Mapping[str, Any]]) -> list[Reliability]:
     for sort in SORTS:
         said = [s for t in trials for s in t["stated"] if s["of"] == sort and s["probability"] is not None]
         if said:
-            found.append(_of(sort, np.array([s["probability"] for s in said]), np.array([s["right"] for s in said])))
+            found.append(
+                _reliability_of(sort, np.array([s["probability"] for s in said]), np.array([s["right"] for s in said]))
+            )
     return found
 
 
-def _of(sort: str, stated: np.ndarray, right: np.ndarray) -> Reliability:
+def _reliability_of(sort: str, stated: np.ndarray, right: np.ndarray) -> Reliability:
     true = right.astype(float)
     number = np.minimum((stated * BINS).astype(int), BINS - 1)
     bins = []

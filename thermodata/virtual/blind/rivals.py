@@ -64,7 +64,7 @@ def ask(fitted: FittedResponse, data: Dataset, tests: list[TestData]) -> Questio
         count = np.bincount(bins, weights=ok)
         use = count > 0
         r = np.bincount(bins, weights=np.where(ok, np.nan_to_num(fitted.residual(test)), 0)) / np.maximum(count, 1)
-        u = np.column_stack([_filled(test.values[n])[::per][: len(count)] for n in names])
+        u = np.column_stack([_gaps_filled(test.values[n])[::per][: len(count)] for n in names])
         left.append(r[use])
         raw.append(u[use] - u[0])
         number.append(np.full(int(use.sum()), len(number)))
@@ -72,7 +72,7 @@ def ask(fitted: FittedResponse, data: Dataset, tests: list[TestData]) -> Questio
     return Question(names, blank.centred(blank.residual[:, None])[:, 0], blank.raw, blank.test)
 
 
-def _filled(x: Float1D) -> Float1D:
+def _gaps_filled(x: Float1D) -> Float1D:
     ok = np.isfinite(x)
     return np.interp(np.arange(len(x)), np.flatnonzero(ok), x[ok]) if ok.any() else np.zeros(len(x))
 
@@ -84,7 +84,7 @@ def _lag(u: Float2D, tau_s: float) -> Float2D:
     return np.asarray(lfilter([1 - a], [1, -a], u, axis=0))
 
 
-def _late(u: Float2D, rows: int) -> Float2D:
+def _delayed(u: Float2D, rows: int) -> Float2D:
     return u[np.maximum(np.arange(len(u)) - rows, 0)]
 
 
@@ -102,7 +102,7 @@ def best_delay_correlation(q: Question) -> str:
     best = np.zeros(len(q.names))
     for delay in DELAYS_S:
         k = round(delay / STEP_S)
-        shifted = q.each(partial(_late, rows=k))
+        shifted = q.each(partial(_delayed, rows=k))
         best = np.maximum(best, np.abs(_unit(shifted).T @ q.residual))
     return q.names[int(np.argmax(best))]
 

@@ -105,7 +105,11 @@ def judge(stratum: str, seed: int, *, rivals: bool = True) -> Trial:
     seconds = process_time() - start
     claims, last, rounds = _all_claims(found, spec, data, case.rounds)
     fits = _Fits(data)
-    key = replace(case.key, alike=_alike(case, claims, fits)) if case.imitated and not case.nothing else case.key
+    key = (
+        replace(case.key, alike=_claims_like_causes(case, claims, fits))
+        if case.imitated and not case.nothing
+        else case.key
+    )
     sound = replace(key, broken=None)  # what the model has is known by a broken channel, too
     marks, missed = marks_of(key, claims)
     head, refined = head_of(found), refinements_of(found)
@@ -129,13 +133,13 @@ def judge(stratum: str, seed: int, *, rivals: bool = True) -> Trial:
         outcome=outcome_of(found.verdict, marks, missed, case.nothing),
         refinements=tuple(c.id for c in refined),
         beside_the_base=sum(sound.best(case.base, c) == "wrong" for c in refined),
-        stated=_stated(key, head, claims_of(found)),
+        stated=_probabilities_stated(key, head, claims_of(found)),
         broken=key.broken,
         broken_claimed=any(key.broken in c.drivers for c in claims),
         broken_first=head is not None and key.broken in head.drivers,
         rmse_um=before,
         rmse_um_claimed=after,
-        rmse_um_refined=fits.locked(_with(spec, refined[:1], data)) if refined else None,
+        rmse_um_refined=fits.locked(_with_candidates(spec, refined[:1], data)) if refined else None,
         rmse_um_named=named,
         rmse_um_truth=_without_truth(case) if hidden else before,
         share=None if fell is None or before is None or after is None else (before - after) / fell,
@@ -155,21 +159,21 @@ def _all_claims(found: Diagnosis, spec: Model, data: Dataset, most: int) -> tupl
     """(claims, the model with them, how often was asked). An answer with fewer claims than rounds (`Case.rounds`) is
     followed: its claims are added, and the better model is asked again, as a user would."""
     new = claims_of(found)
-    claims, last, rounds = list(new), _with(spec, new, data), 1
+    claims, last, rounds = list(new), _with_candidates(spec, new, data), 1
     while new and len(claims) < most:
         new = claims_of(_ask(last, data))
-        claims, last, rounds = [*claims, *new], _with(last, new, data), rounds + 1
+        claims, last, rounds = [*claims, *new], _with_candidates(last, new, data), rounds + 1
     return claims, last, rounds
 
 
-def _stated(key: Key, head: Candidate | None, claims: Sequence[Candidate]) -> tuple[Stated, ...]:
+def _probabilities_stated(key: Key, head: Candidate | None, claims: Sequence[Candidate]) -> tuple[Stated, ...]:
     def stated(of: str, c: Candidate) -> Stated:
         return Stated(of, c.id, c.probability, key.is_hidden(c))
 
     return (*([] if head is None else [stated("first", head)]), *(stated("claim", c) for c in claims))
 
 
-def _with(spec: Model, some: Sequence[Candidate], data: Dataset) -> Model:
+def _with_candidates(spec: Model, some: Sequence[Candidate], data: Dataset) -> Model:
     for one in some:
         spec = with_candidate(spec, one.id, data.channels)
     return spec
@@ -203,7 +207,7 @@ class _Fits:
         return np.nan if left is None else left**2
 
 
-def _alike(case: Case, claims: Sequence[Candidate], fits: _Fits) -> frozenset[tuple[str, str]]:
+def _claims_like_causes(case: Case, claims: Sequence[Candidate], fits: _Fits) -> frozenset[tuple[str, str]]:
     """(claim, cause) where the open tests can't tell them apart: beside all that is missing else, the claim in the
     place of the cause takes off as much of their error. A cause that takes off nothing is imitated by nothing."""
     strange = [c for c in claims if all(case.key.stands_for(cause, c) is None for cause in case.key.hidden)]
@@ -214,7 +218,7 @@ def _alike(case: Case, claims: Sequence[Candidate], fits: _Fits) -> frozenset[tu
         if own > (1 - LEAST_FALL) ** 2 * without:
             continue
         for c in strange:
-            instead = fits.opened_squares(_with(rest, [c], case.data))
+            instead = fits.opened_squares(_with_candidates(rest, [c], case.data))
             if without - instead >= ALIKE * (without - own):
                 pairs.add((c.id, cause))
     return frozenset(pairs)

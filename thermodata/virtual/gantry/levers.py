@@ -28,7 +28,7 @@ def draw_levers(rng: np.random.Generator, hide: str, axis: int, units: Units, op
     """effect -> lever along X, Y, Z, shape (3,), for the effects that are present. units: micrometres at lever 1."""
     best: tuple[float, Levers] = (-1.0, {})
     for _ in range(DRAWS):
-        levers = {e: _telling(rng, e, axis, units, ops) for e in present(rng, hide, axis)}
+        levers = {e: _lever_that_is_seen(rng, e, axis, units, ops) for e in present(rng, hide, axis)}
         if hide == "none":
             return levers
         own = own_um(hide, levers, axis, units, ops)
@@ -97,7 +97,9 @@ def spread(effect: str, units: Units, ops: Sequence[Operation]) -> list[float]:
     return [float(np.std(u[effect][op.measuring])) for u, op in zip(units, ops, strict=True)]
 
 
-def _telling(rng: np.random.Generator, effect: str, axis: int, units: Units, ops: Sequence[Operation]) -> Float1D:
+def _lever_that_is_seen(
+    rng: np.random.Generator, effect: str, axis: int, units: Units, ops: Sequence[Operation]
+) -> Float1D:
     """Drawn so that the effect is seen: in its best test, in three tests, in the locked one."""
     h = EFFECTS[effect]
     sizes = spread(effect, units, ops)

@@ -156,7 +156,7 @@ def _fluids(op: Operation, rng: np.random.Generator) -> None:
         op.pump[op.span(begin, begin + length)] = 1.0
 
 
-def _mixed(axis: int) -> Fill:
+def _working_day(axis: int) -> Fill:
     """A working day: warm up, feeds, cuts, table, rests, in an order of its own."""
 
     def fill(op: Operation, rng: np.random.Generator) -> None:
@@ -203,13 +203,13 @@ def make_plan(rng: np.random.Generator, axis: int, hours: float, tests: int | No
         (7, "table", "rotary_axis", "calibration", _table),
         (8, "cutting", "cutting", "calibration", _cutting),
         (9, "fluids", "other", "calibration", _fluids),
-        (2, "day1", "mixed", "verification", _mixed(axis)),
-        (0, "day2", "mixed", "locked", _mixed(axis)),
+        (2, "day1", "mixed", "verification", _working_day(axis)),
+        (0, "day2", "mixed", "locked", _working_day(axis)),
     ]
     wanted = 10 if tests is None else tests
     chosen = [row for row in every if row[0] < wanted]
     for extra in range(10, wanted):
-        filled: tuple[str, Fill] = ("mixed", _mixed(axis)) if extra % 2 else ("spectrum", _spectrum)
+        filled: tuple[str, Fill] = ("mixed", _working_day(axis)) if extra % 2 else ("spectrum", _spectrum)
         chosen.insert(-1, (extra, f"{filled[0]}{extra}", filled[0], "verification", filled[1]))
     plan = []
     for _, name, kind, role, fill in chosen:

@@ -122,7 +122,7 @@ def make_world(
     draw: which effects the machine has, and their levers. knows: which of them the lab's model has. UsageError for an
     unknown effect, fewer than two tests or less than two hours.
     """
-    _refuse(hide, seed, tests, hours)
+    _refuse_impossible(hide, seed, tests, hours)
     rng = np.random.default_rng([seed, 7919, sum(map(ord, hide))])
     axis = _axis(rng, hide)
     ops = make_plan(rng, axis, hours, tests)
@@ -150,7 +150,7 @@ def make_world(
 EPOCH_S = 1_771_801_200.0  # 2026-02-23 00:00 in Prague
 
 
-def _refuse(hide: str, seed: int, tests: int | None, hours: float) -> None:
+def _refuse_impossible(hide: str, seed: int, tests: int | None, hours: float) -> None:
     """UsageError for what no campaign can be made of."""
     if hide != "none" and hide not in EFFECTS:
         close = nearest(hide, [*EFFECTS, "none"])

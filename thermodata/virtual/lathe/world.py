@@ -98,12 +98,12 @@ def make_world(
         c: float(target[c] * sign[c] * (kind.strength if c in hidden else 1.0) / _raw_size(c, course, row))
         for c in (*base, *hidden)
     }
-    sensors = _logged(kind, hidden, base, luck, thin and by_speed)
+    sensors = _sensors_logged(kind, hidden, base, luck, thin and by_speed)
     noise = np.random.default_rng([seed, 15_487_469])
     decoy_of = None
     # steps of DT_S by which the control's clock is behind, in all tests alike
     late = int(noise.choice([-1, 1]) * noise.integers(4, 17)) if kind.clock else 0
-    runs = [_run(s, scale, sensors, noise, kind, late) for s in course]
+    runs = [_run_of(s, scale, sensors, noise, kind, late) for s in course]
     if kind.decoy:
         decoy_of = next(n for n in CAUSES[hidden[0]].sensors if BY_NAME[n].quantity == "temperature")
         sensors, runs = _with_decoy(sensors, runs, decoy_of, hidden[0], noise)
@@ -176,7 +176,7 @@ def _base(hidden: tuple[str, ...], order: list[str], thin: bool) -> tuple[str, .
     return tuple(first if thin else first + rest[:3])
 
 
-def _logged(
+def _sensors_logged(
     kind: Stratum, hidden: tuple[str, ...], base: tuple[str, ...], luck: Mapping[str, float], by_speed: bool
 ) -> tuple[Sensor, ...]:
     """What the model and the causes need, and of the others what this laboratory happens to log."""
@@ -188,7 +188,7 @@ def _logged(
     return tuple(coarse(s) for s in kept) if kind.coarse else tuple(kept)
 
 
-def _run(
+def _run_of(
     s: Stretch,
     scale: Mapping[str, float],
     sensors: tuple[Sensor, ...],

@@ -44,9 +44,9 @@ class Key:
             return own
         if self.broken in claim.drivers:
             return None
-        return "told" if self._told(cause, claim) else "alike" if (claim.id, cause) in self.alike else None
+        return "told" if self._is_told(cause, claim) else "alike" if (claim.id, cause) in self.alike else None
 
-    def _told(self, cause: str, claim: Candidate) -> bool:
+    def _is_told(self, cause: str, claim: Candidate) -> bool:
         """Whether the claim names the cause among those that it can't be told from, or the part that it is."""
         right = self.names[cause]
         another = any(holds(part, place) for part in claim.unread for place in right.places)

@@ -114,8 +114,8 @@ def _rod(area_m2: float, length_m: float, n: int) -> tuple[float, float]:
 
 
 def _spindle(b: Builder, sources: dict[str, dict[int, float]], r: Draw) -> None:
-    shaft = b.body("shaft", *_split(_rod(r(3.6e-3, 5e-3), 0.6, 8), 8))
-    housing = b.body("housing", *_split(_rod(r(0.018, 0.024), 0.6, 8), 8))
+    shaft = b.body("shaft", *_rod_in_cells(_rod(r(3.6e-3, 5e-3), 0.6, 8), 8))
+    housing = b.body("housing", *_rod_in_cells(_rod(r(0.018, 0.024), 0.6, 8), 8))
     b.link(shaft, housing, r(3, 6))
     b.air(shaft[0], "hall.middle", r(0.6, 1.2))
     b.air(housing[:3], "hall.middle", r(4, 7))
@@ -137,8 +137,8 @@ def _spindle(b: Builder, sources: dict[str, dict[int, float]], r: Draw) -> None:
     sources["sleeve"] = {int(sleeve[0]): 0.7, int(sleeve[1]): 0.3}
     b.link(housing[5:8], b.body("ram", r(0.9e5, 1.3e5), 4, r(12, 18)), r(1, 2))
     b.air(b.cells["ram"], "hall.middle", r(18, 26))
-    holder = b.body("holder", *_split(_rod(1.6e-3, 0.09, 3), 3))
-    tool = b.body("tool", *_split(_rod(r(4e-4, 7e-4), 0.11, 4), 4))
+    holder = b.body("holder", *_rod_in_cells(_rod(1.6e-3, 0.09, 3), 3))
+    tool = b.body("tool", *_rod_in_cells(_rod(r(4e-4, 7e-4), 0.11, 4), 4))
     b.link(holder[-1], tool[0], r(0.5, 0.8))
     b.link(holder[0], shaft[0], r(0.8, 1.4))
     b.air(holder, "hall.middle", r(0.35, 0.5))
@@ -168,7 +168,7 @@ def _axes(b: Builder, sources: dict[str, dict[int, float]], r: Draw, home: Float
     length = np.array([r(1000, 1200), r(900, 1100), r(800, 950)])
     start = home - length * np.array([r(0.5, 0.6) for _ in range(3)])
     for i, a in enumerate("xyz"):
-        screw = b.body(f"screw_{a}", *_split(_rod(1.26e-3, float(length[i]) / 1000, SCREW_CELLS), SCREW_CELLS))
+        screw = b.body(f"screw_{a}", *_rod_in_cells(_rod(1.26e-3, float(length[i]) / 1000, SCREW_CELLS), SCREW_CELLS))
         b.air(screw, "hall.middle", r(1.5, 2.4))
         nut = b.body(f"nut_{a}", r(700, 1100))
         b.air(nut, "hall.middle", r(2.4, 3.4))
@@ -230,7 +230,7 @@ def _mated(b: Builder, name: str, capacity: float, conductance: float, air: str,
     return cells
 
 
-def _split(rod: tuple[float, float], n: int) -> tuple[float, int, float]:
+def _rod_in_cells(rod: tuple[float, float], n: int) -> tuple[float, int, float]:
     return rod[0], n, rod[1]
 
 

@@ -76,7 +76,7 @@ class _Heat:
 
     def into_cells(self, i: int, temperature: Float2D, *, works: bool) -> Float2D:
         """Heat into each cell [W], shape (size, tests), at sample i. works: not while the machine soaks."""
-        q = np.asarray(self.into @ (self._made(i, temperature) if works else self.at_rest))
+        q = np.asarray(self.into @ (self._heat_made_w(i, temperature) if works else self.at_rest))
         for nut, screw, share in self.nuts:
             flow = self.machine.nut_w_per_k * share[i] * (temperature[nut] - temperature[screw])
             q[screw] += flow
@@ -86,7 +86,7 @@ class _Heat:
                 q[cells] += w * self.wet[i] * (self.outside[i, self.fluid] - temperature[cells])
         return q
 
-    def _made(self, i: int, temperature: Float2D) -> Float2D:
+    def _heat_made_w(self, i: int, temperature: Float2D) -> Float2D:
         """By each source [W], shape (sources, tests): warm oil rubs less, and warm copper loses more."""
         made, heat = self.powers[i].copy(), self.machine.heat
         for row, cell in self.viscous:

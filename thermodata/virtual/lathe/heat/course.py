@@ -69,9 +69,9 @@ def make_course(work: Work, air: Air, working: bool, dt_s: float) -> Course:
     return Course(
         air.low,
         air.floor,
-        _around(air),
-        _each(forced_cubed, air.draught),
-        22 * _each(lambda n: (n / TOP_RPM) ** 0.7, speed) + 90 * wet,
+        _air_around_cells(air),
+        _at_each_step(forced_cubed, air.draught),
+        22 * _at_each_step(lambda n: (n / TOP_RPM) ** 0.7, speed) + 90 * wet,
         wet,
         speed,
         _power(work, kw) if working else np.zeros((work.n, CELLS)),
@@ -80,14 +80,14 @@ def make_course(work: Work, air: Air, working: bool, dt_s: float) -> Course:
     )
 
 
-def _each(value: Callable[..., float], *courses: Float1D) -> Float1D:
+def _at_each_step(value: Callable[..., float], *courses: Float1D) -> Float1D:
     """A function of numbers at each step; courses hold their values for long, so that few are computed."""
     rows = list(zip(*(c.tolist() for c in courses), strict=True))
     known = {row: value(*row) for row in set(rows)}
     return np.array([known[row] for row in rows])
 
 
-def _around(air: Air) -> Float2D:
+def _air_around_cells(air: Air) -> Float2D:
     found = np.repeat(air.low[:, None], CELLS, axis=1)
     layer = air.high - air.low
     for body, bottom, top in (
@@ -101,14 +101,14 @@ def _around(air: Air) -> Float2D:
 
 def _power(work: Work, kw: Float1D) -> Float2D:
     P = np.zeros((work.n, CELLS))
-    screw = _each(lambda v: sliding_w(v, 35, 70, 80) / 3, work.feed_z)
+    screw = _at_each_step(lambda v: sliding_w(v, 35, 70, 80) / 3, work.feed_z)
     first = STACK.where["screw_z"].start
     for pos in np.unique(work.pos_z):
         rows = np.flatnonzero(work.pos_z == pos)
         nut = STACK.cell("screw_z", min(0.35 + 0.5 * float(pos) / 400, 0.95))
         P[rows, max(nut - 1, first) : nut + 2] += screw[rows, None]
-    P[:, AT["nut_x"]] += _each(lambda v: sliding_w(v, 50, 90, 150), work.feed_x)
-    P[:, AT["guide"]] += _each(
+    P[:, AT["nut_x"]] += _at_each_step(lambda v: sliding_w(v, 50, 90, 150), work.feed_x)
+    P[:, AT["guide"]] += _at_each_step(
         lambda z, x: sliding_w(z, 350, 900, 300) + 0.4 * sliding_w(x, 300, 800, 250), work.feed_z, work.feed_x
     )
     P[:, AT["gear"]] += 0.055 * work.tool_speed
@@ -120,7 +120,7 @@ def _power(work: Work, kw: Float1D) -> Float2D:
 def _lumps(work: Work, air: Air, kw: Float1D, wet: Float1D, on: float, dt_s: float) -> tuple[Float2D, Float2D, Float2D]:
     """(given, loss, decay) of each lump, but for what its rod gives."""
     heat = {
-        "winding": on * _each(motor_w, work.speed, kw),
+        "winding": on * _at_each_step(motor_w, work.speed, kw),
         "motor_x": on * (25 * (work.feed_x > 0) + 3.0 * work.feed_x),
         "motor_z": on * (25 * (work.feed_z > 0) + 3.5 * work.feed_z),
         "coolant": 150 * wet + 60 * kw * wet,
