@@ -195,8 +195,8 @@ MUTANTS = [
     text("times/time_formats.py", "if shares[o] == best]", "]", "a day above 12 decides nothing"),
     text(
         "times/time_formats.py",
-        "(partial(_spread, cells, _MANY), more)",
-        "(partial(_spread, cells, _MANY),)",
+        "(partial(_spread_evenly, cells, _MANY), more)",
+        "(partial(_spread_evenly, cells, _MANY),)",
         "a day far down decides nothing",
     ),
     text("times/time_formats.py", "zoned * 2 > len(some)", "zoned > 0", "one zone makes all local times bad"),
