@@ -171,11 +171,11 @@ def test_a_store_of_an_older_version_is_read_with_our_views(own: Store) -> None:
 
 def test_the_next_write_of_any_kind_brings_the_views_of_an_older_version_up(own: Store) -> None:
     made_by_an_older_version(own)
-    with own._opened(con := connection.memory(own.path)):
+    with own._attached_for_writing(con := connection.memory(own.path)):
         assert not of_this_version(con)
     with own.write(views=False):
         pass
-    with own._opened(con := connection.memory(own.path)):
+    with own._attached_for_writing(con := connection.memory(own.path)):
         assert of_this_version(con)
         assert con.execute("select count(*) from displacement").fetchone() == (12,)
 
