@@ -175,7 +175,12 @@ MUTANTS = [
     diagnosis(
         "of_library.py", "if not nameless and len(bodies) == len(names):", "if False:", "a washed table is friction"
     ),
-    diagnosis("of_library.py", "(bool(bodies) or any(_follows", "(any(_follows", "a washed table is a cause"),
+    diagnosis(
+        "of_library.py",
+        "(bool(bodies) or any(_is_warmed_from_elsewhere",
+        "(any(_is_warmed_from_elsewhere",
+        "a washed table is a cause",
+    ),
     diagnosis(
         "of_library.py", 'c.quantity == "temperature" and holds(h, c.at)', "holds(h, c.at)", "a speed is a sensor"
     ),
@@ -289,8 +294,18 @@ MUTANTS = [
     diagnosis(
         "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"
     ),
-    diagnosis("feedback.py", "if _closes(effect, heat", "if True or _closes(effect, heat", "no screw may be it"),
-    diagnosis("feedback.py", "if _closes(effect, heat", "if False and _closes(effect, heat", "a kept screw may be it"),
+    diagnosis(
+        "feedback.py",
+        "if _loop_compensates(effect, heat",
+        "if True or _loop_compensates(effect, heat",
+        "no screw may be it",
+    ),
+    diagnosis(
+        "feedback.py",
+        "if _loop_compensates(effect, heat",
+        "if False and _loop_compensates(effect, heat",
+        "a kept screw may be it",
+    ),
     diagnosis("judge.py", "if left <= measure.floor and", "if left < 0 and", "'none' is never said"),
     diagnosis("judge.py", "RATHER = 0.5", "RATHER = 0.6", "'none' beside what is rather missing"),
     diagnosis("judge.py", "RATHER = 0.5", "RATHER = 0.4", "'none' is not said beside what is rather none"),

@@ -53,22 +53,22 @@ def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
     if kept is not None and kept[0] is candidate:
         found: Basis = kept[1]
         return found
-    made = _made(problem, candidate)
+    made = _make_basis(problem, candidate)
     size = made.nbytes
     if sum(taken for *_, taken in bases.values()) + size <= KEPT_BYTES:
         bases[id(candidate)] = candidate, made, size
     return made
 
 
-def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
-    points = grid(_acting(problem, candidate), problem.step_s)
+def _make_basis(problem: Problem, candidate: CandidateEffect) -> Basis:
+    points = grid(_acting_params(problem, candidate), problem.step_s)
     held = {p.name: p.start for p in candidate.effect.params}
     points = [{**held, **p} for p in points]
     asked = [q for p in points for q in (p, *candidate.slack_params(p))]
     gains = len(candidate.effect.gains)
     compressed = [
         block.freed(mean).reshape(block.size, len(points), -1, gains)
-        for block, mean in zip(problem.blocks, _means(problem, candidate, asked), strict=True)
+        for block, mean in zip(problem.blocks, _effect_at_points(problem, candidate, asked), strict=True)
     ]
     place = _first_alike(compressed)
     kept = sorted(set(place))
@@ -77,7 +77,9 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
     return Basis([points[i] for i in kept], own, others)
 
 
-def _means(problem: Problem, candidate: CandidateEffect, asked: Sequence[Mapping[str, float]]) -> Iterator[Float2D]:
+def _effect_at_points(
+    problem: Problem, candidate: CandidateEffect, asked: Sequence[Mapping[str, float]]
+) -> Iterator[Float2D]:
     """What it does at each of the points asked, a block each, shape (m, columns); from what the problem keeps for other
     responses (`sharing`), or made."""
     kept = problem.kept.get("means", {})
@@ -98,7 +100,7 @@ def _means(problem: Problem, candidate: CandidateEffect, asked: Sequence[Mapping
         yield mean
 
 
-def _acting(problem: Problem, candidate: CandidateEffect) -> list[Param]:
+def _acting_params(problem: Problem, candidate: CandidateEffect) -> list[Param]:
     """The parameters that change a column in any test: an exponent of a speed means nothing where a temperature drives
     the effect, and a grid of time constants alone is finer."""
     params = candidate.effect.params

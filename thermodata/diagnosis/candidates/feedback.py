@@ -23,7 +23,7 @@ def feedback_of_axes(tests: Iterable[TestData]) -> dict[str, str]:
 def is_kept_from_the_tool(effect: Effect, channels: Iterable[Described], feedback: Mapping[str, str]) -> bool:
     """Whether an effect does nothing at the tool, for what closes the loop of its axis. channels: that drive it."""
     axes = {m[1] for c in channels if (m := _AXIS.match((c.at or "").lower()))}
-    return any(_closes(effect, axis, feedback) for axis in axes)
+    return any(_loop_compensates(effect, axis, feedback) for axis in axes)
 
 
 def kept_parts(
@@ -39,11 +39,11 @@ def kept_parts(
         for place in need.places
         if (part := part_of(place)) and part.name in RUBS
         for heat in heats
-        if _closes(effect, heat.removeprefix(AXIS), feedback)
+        if _loop_compensates(effect, heat.removeprefix(AXIS), feedback)
     )
 
 
-def _closes(effect: Effect, axis: str, feedback: Mapping[str, str]) -> bool:
+def _loop_compensates(effect: Effect, axis: str, feedback: Mapping[str, str]) -> bool:
     """Whether the loop of an axis is closed by what keeps the effect from the tool. Of two motors of one axis, y1 and
     y2, the axis is declared."""
     closed_by: str | None = getattr(effect, "closed_by", None)

@@ -51,7 +51,7 @@ def kin_of(
 ) -> Kin:
     """Of an effect by some channels. family: with the axis that these sit on. names: of the channels. channels: of the
     data, what each of them is."""
-    near = names <= model.read or _near(names, model.read, channels)
+    near = names <= model.read or _sits_where_read(names, model.read, channels)
     if refines(effect) and (told_by(effect) is None or model.has_any(refines(effect), family)):
         return "same"
     # a temperature is the state of one body; a speed makes heat, and force
@@ -86,7 +86,7 @@ def _one_of_several(names: frozenset[str], read: Sequence[frozenset[str]]) -> bo
     return names not in read and any(names < some for some in read)
 
 
-def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:
+def _sits_where_read(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:
     """Whether a channel sits where the model reads one already: at its place, around it, or within it."""
     mine, theirs = ({p for n in some if n in channels and (p := channels[n].at)} for some in (names, read))
     return any(holds(a, b) or holds(b, a) for a in mine for b in theirs)

@@ -120,7 +120,7 @@ class CandidateEffect:
     def in_test(self, test: TestData) -> InTest:
         """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there. It
         is zero, too, where its drivers rest (`plugin.Effect.basis`)."""
-        led = self._led(test)
+        led = self._led_drivers_in(test)
         if led is None:
             nothing = np.zeros((len(test.t_s), len(self.effect.gains)))
             return lambda p: nothing
@@ -128,14 +128,14 @@ class CandidateEffect:
 
     def in_tests(self, tests: Sequence[TestData], points: Sequence[Mapping[str, float]]) -> list[Float2D]:
         """The same in each of several tests, at several points side by side: shape (n, points * gains) each."""
-        led = [self._led(test) for test in tests]
+        led = [self._led_drivers_in(test) for test in tests]
         found = iter(columns_of_each(self.effect, [one for one in led if one is not None], points))
         width = len(points) * len(self.effect.gains)
         return [
             np.zeros((len(t.t_s), width)) if one is None else next(found) for t, one in zip(tests, led, strict=True)
         ]
 
-    def _led(self, test: TestData) -> tuple[Drivers, int] | None:
+    def _led_drivers_in(self, test: TestData) -> tuple[Drivers, int] | None:
         """What drives it in a test; None where it does nothing there."""
         failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
         if failed or not has_drivers(test, self.binding):
@@ -223,7 +223,7 @@ class _Beside:
             binding,
             family,
             placeless=family == GENERIC and not placed,
-            passive=placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names)),
+            passive=placed and nameless and (bool(bodies) or any(_is_warmed_from_elsewhere(usable[n]) for n in names)),
             kin=kin_of(effect, family, names, self.model, self.library, usable),
             unread=other,
             around=len(names) == 1 and all(_is_around(usable[n]) for n in names),
@@ -271,7 +271,7 @@ def _told_by_names(found: Sequence[CandidateEffect]) -> list[CandidateEffect]:
     ]
 
 
-def _follows(channel: ChannelInfo) -> bool:
+def _is_warmed_from_elsewhere(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
     follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at) or is_scale(channel.at)
     return channel.quantity == "temperature" and follows

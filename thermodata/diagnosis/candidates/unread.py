@@ -76,7 +76,7 @@ def unread(
         return ()  # an amplifier, a scale, a place that nobody knows: whose heat that is can't be told
     others = [
         places[0]
-        for name, places in _places(heat).items()
+        for name, places in _places_by_part(heat).items()
         if name not in own
         and MachinePart(heat, name) not in known
         and not (warm and any(reads(channels, place) for place in places))
@@ -106,7 +106,7 @@ def reads(channels: Mapping[str, Described], place: str) -> bool:
 
 def warms_the_holder(channel: Described) -> bool:
     """Whether what holds the probes warms with it, beside the machine."""
-    return _cuts(channel) or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
+    return _tells_cutting(channel) or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 
 def is_holder(channel: Described) -> bool:
@@ -115,7 +115,7 @@ def is_holder(channel: Described) -> bool:
     return channel.quantity == TEMPERATURE and held
 
 
-def _cuts(channel: Described) -> bool:
+def _tells_cutting(channel: Described) -> bool:
     return channel.quantity in CUTS and is_spindle(channel.at)
 
 
@@ -128,7 +128,7 @@ def _take_up_power(names: Iterable[str], channels: Mapping[str, Described]) -> b
 def motors_of(names: Collection[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
     """The places of the motors of what spindles take up."""
     power = _take_up_power(names, channels)
-    spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if power or _cuts(channels[n])}
+    spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if power or _tells_cutting(channels[n])}
     return tuple(f"{one}.{MOTOR}" for one in sorted(spindles))
 
 
@@ -137,7 +137,7 @@ def is_motion(quantity: str) -> bool:
     return quantity in MAKES_HEAT
 
 
-def _places(heat: str) -> dict[str, tuple[str, ...]]:
+def _places_by_part(heat: str) -> dict[str, tuple[str, ...]]:
     """Part -> places that read it."""
     if heat == AIR:
         return dict(STANDS_IN_AIR)

@@ -61,22 +61,22 @@ def _is_warm_at_rest(name: str, tests: Sequence[TestData], moved: Sequence[bool]
 
 def _spreads(name: str, tests: Sequence[TestData], moved: Sequence[bool]) -> tuple[list[float], list[float]]:
     """Standard deviations: of tests at rest, of the others."""
-    of_each = [(_seen(t, name), so) for t, so in zip(tests, moved, strict=True)]
+    of_each = [(_logged_values(t, name), so) for t, so in zip(tests, moved, strict=True)]
     resting, moving = ([float(v.std()) for v, so in of_each if so is wanted and len(v)] for wanted in (False, True))
     return resting, moving
 
 
 def _moved(tests: Sequence[TestData], motions: Sequence[str]) -> list[bool]:
     """Whether something moved, a test each."""
-    does = np.array([[_most(t, n) for n in motions] for t in tests]).reshape(len(tests), len(motions))
+    does = np.array([[_largest_size(t, n) for n in motions] for t in tests]).reshape(len(tests), len(motions))
     moved: list[bool] = (does > STANDS * does.max(axis=0, initial=0.0)).any(axis=1).tolist()
     return moved
 
 
-def _most(test: TestData, name: str) -> float:
-    return float(np.abs(_seen(test, name)).max(initial=0.0))
+def _largest_size(test: TestData, name: str) -> float:
+    return float(np.abs(_logged_values(test, name)).max(initial=0.0))
 
 
-def _seen(test: TestData, name: str) -> np.ndarray:
+def _logged_values(test: TestData, name: str) -> np.ndarray:
     values = np.asarray(test.values.get(name, np.empty(0)), dtype=np.float64)
     return values[np.isfinite(values)]
