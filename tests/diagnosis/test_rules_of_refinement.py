@@ -335,7 +335,7 @@ def test_an_effect_is_dropped_with_its_time_constants_and_what_was_added_stays()
     base, slack = np.arange(4.0) + np.zeros((ROWS, 4)), np.arange(5.0) + np.zeros((ROWS, 5))
     one = problem(*[Parts(WAVE, base=base, slack=slack)] * 2)
     asked = Refinement(fitted, one, NOISE)  # type: ignore[arg-type]
-    first, second = (asked._lacking(one, term).blocks[0] for term in (0, 1))
+    first, second = (asked._problem_without(one, term).blocks[0] for term in (0, 1))
     assert (first.base[0].tolist(), first.slack[0].tolist()) == ([2.0, 3.0], [4.0])
     assert (second.base[0].tolist(), second.slack[0].tolist()) == ([0.0, 1.0, 3.0], [0.0, 1.0, 2.0, 3.0, 4.0])
 

@@ -82,20 +82,20 @@ class Refinement:
         kin, most = scored.candidate.kin, scored.drop >= MOST
         effect = scored.candidate.effect
         if (refines(effect) and told_by(effect) is None) or kin == "same":
-            return self._mode(scored)
+            return self._named_as_mode(scored)
         if kin == "part" and sharpness(scored) < STRONG:
             return PART
         if (air := self._air_that_warms_it(scored)) is not None:
             return mode_of([air])
         if kin == "heat" and not self._acts_beside(scored):
-            return self._mode(scored)
+            return self._named_as_mode(scored)
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
-            return self._mode(scored)
+            return self._named_as_mode(scored)
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
         # what is surely a cause is one, however small beside its kin
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
-            return LITTLE if kin in ("near", "related") else self._mode(scored)
+            return LITTLE if kin in ("near", "related") else self._named_as_mode(scored)
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
         near = kin == "near" and not is_surely_missing(scored)
         may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
@@ -109,7 +109,7 @@ class Refinement:
                 return f"it acts as {term.id} would if its temperature counted from {channel}"
         return None
 
-    def _mode(self, scored: Scored) -> str:
+    def _named_as_mode(self, scored: Scored) -> str:
         """With the effects of the model that it is taken for a mode of: what it refines, what stands for the same
         cause, what reads its channels, or what is of its family; the first of these that there is."""
         one = scored.candidate
@@ -136,15 +136,15 @@ class Refinement:
 
     def _is_kept(self, scored: Scored, term: int) -> bool:
         """Whether a known effect is worth as much beside it."""
-        return self._cost(beside(self.problem, [scored]), term) >= KEPT * self._alone(term)
+        return self._cost(beside(self.problem, [scored]), term) >= KEPT * self._worth_alone(term)
 
-    def _alone(self, term: int) -> float:
+    def _worth_alone(self, term: int) -> float:
         if term not in self._worth:
             self._worth[term] = self._cost(self.problem, term)
         return self._worth[term]
 
     def _replaces(self, scored: Scored, term: int) -> bool:
-        alone = self._alone(term)
+        alone = self._worth_alone(term)
         if alone < WORTH or self._likeness(scored, term) < LIKE:
             return False
         return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
@@ -157,10 +157,13 @@ class Refinement:
 
     def _cost(self, problem: Problem, term: int) -> float:
         """Log evidence that dropping a known effect costs."""
-        return known(problem, self.noise).log_evidence - known(self._lacking(problem, term), self.noise).log_evidence
+        return (
+            known(problem, self.noise).log_evidence
+            - known(self._problem_without(problem, term), self.noise).log_evidence
+        )
 
-    def _lacking(self, problem: Problem, term: int) -> Problem:
-        base, spare = (_others(o, term) for o in self.owners)
+    def _problem_without(self, problem: Problem, term: int) -> Problem:
+        base, spare = (_columns_of_others(o, term) for o in self.owners)
         blocks = []
         for b in problem.blocks:
             added = np.arange(len(self.owners[0]), b.base.shape[1]), np.arange(len(self.owners[1]), b.slack.shape[1])
@@ -176,7 +179,7 @@ class Refinement:
     def _likeness(self, scored: Scored, term: int) -> float:
         """Cosine, without sign, of what the candidate and a known effect do."""
         own = scored.columns.does(scored.weighed)
-        theirs = np.concatenate([self._does(b, term) for b in self.problem.blocks])
+        theirs = np.concatenate([self._contribution(b, term) for b in self.problem.blocks])
         size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
         return abs(float(own @ theirs)) / size if size > 0 else 0.0
 
@@ -227,18 +230,18 @@ class Refinement:
         left = y - x @ np.linalg.lstsq(x, y, rcond=ALONE)[0]
         return 1.0 - float(left @ left) / float(y @ y)
 
-    def _does(self, block: Block, term: int) -> Float1D:
+    def _contribution(self, block: Block, term: int) -> Float1D:
         gains = len(self.fitted.terms[term].effect.gains)
         own = np.flatnonzero(self.owners[0] == term)[:gains]
         return np.asarray(block.base[:, own].sum(axis=1))
 
     def _size(self, term: int) -> float:
         """RMS of what a known effect does, as fitted, in its largest test."""
-        return max(rms([self._does(b, term)]) for b in self.problem.blocks)
+        return max(rms([self._contribution(b, term)]) for b in self.problem.blocks)
 
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels
-        if self.fitted.terms[term].family == AIR or not _surrounds(scored.candidate):
+        if self.fitted.terms[term].family == AIR or not _reads_surroundings(scored.candidate):
             return None
         if len(channels) != 1 or not self._is_warm(channels[0]):
             return None
@@ -261,9 +264,9 @@ class Refinement:
         others = [n for n in range(len(self.fitted.terms)) if n != term]
         shares = []
         for block, own in zip(self.problem.blocks, candidate, strict=True):
-            does = self._does(block, term)
+            does = self._contribution(block, term)
             if own.std() >= does.std() and own.any():
-                left = block.response - sum((self._does(block, n) for n in others), np.zeros(len(own)))
+                left = block.response - sum((self._contribution(block, n) for n in others), np.zeros(len(own)))
                 shares.append(float(left.std() / own.std()))
         return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
 
@@ -279,7 +282,7 @@ def _read_by(term: FittedTerm, channels: Sequence[str]) -> bool:
     return any(name in names_of(text) for text in term.binding.values() for name in channels)
 
 
-def _surrounds(candidate: CandidateEffect) -> bool:
+def _reads_surroundings(candidate: CandidateEffect) -> bool:
     """Whether it reads what a warm part may count from: the air, a casting, or what nobody declared a place of."""
     body = candidate.passive or candidate.placeless
     return candidate.family == AIR or (candidate.family == GENERIC and body)
@@ -292,5 +295,5 @@ def _takes_away(own: Float1D, theirs: Float1D) -> bool:
     return product / np.sqrt(size * float(own @ own)) < OPPOSITE and SHARE[0] <= -product / size <= SHARE[1]
 
 
-def _others(owned: Int1D, term: int) -> Int1D:
+def _columns_of_others(owned: Int1D, term: int) -> Int1D:
     return np.flatnonzero(owned != term)

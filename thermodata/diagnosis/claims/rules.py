@@ -112,7 +112,7 @@ def _chance_seldom_does_as_well(of: _Asked) -> Rule:
 
 
 def _the_error_falls_on_left_out_tests(of: _Asked) -> Rule:
-    drop, limit = of.scored.drop, STEADYING_DROP_LIMIT if _steadies(of.scored) else DROP_LIMIT
+    drop, limit = of.scored.drop, STEADYING_DROP_LIMIT if _follows_anything_slow(of.scored) else DROP_LIMIT
     return Rule(
         "fall",
         asks=f"fall of the error where it acts, its size from the other {of.tests}{_UNASKED.format(STRONG)}, or it is "
@@ -177,7 +177,7 @@ def _it_explains_what_is_worth_a_name(of: _Asked) -> Rule:
         limit=worth,
         at="least",
         holds=of.strong or told >= worth or (of.sure and _does_much(of.scored, of.measure)),
-        fails=f"it explains {short(told)} {of.unit} where it acts, {_share(told, spread)} of the response's "
+        fails=f"it explains {short(told)} {of.unit} where it acts, {_percent_of(told, spread)} of the response's "
         f"{short(spread)} {of.unit} ({beside(told / max(spread, 1e-12), WORTH_SHARE)})",
         unit=of.unit,
     )
@@ -218,7 +218,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     return [rule for rule in (ask(of) for ask in _IN_THEIR_ORDER) if rule is not None]
 
 
-def _share(part: float, whole: float) -> str:
+def _percent_of(part: float, whole: float) -> str:
     return in_percent(part / whole, 1) if whole > 0 else "none"
 
 
@@ -279,7 +279,7 @@ def may_be_claimed(scored: Scored, measure: Measure, unit: str) -> bool:
     return not failed_rules(scored, measure, unit) and may_be_confirmed(scored)
 
 
-def _steadies(scored: Scored) -> bool:
+def _follows_anything_slow(scored: Scored) -> bool:
     """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
     return scored.candidate.passive or scored.candidate.family == CONTROL
 
