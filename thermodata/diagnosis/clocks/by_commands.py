@@ -71,10 +71,10 @@ class _Sums:
     loudest: tuple[FloatND, FloatND, Float1D]
 
     def in_all(self, source: str) -> Timing:
-        left = np.array([self._left(i, self._gains(i)) for i in range(len(self.tests))])
+        left = np.array([self._squares_left(i, self._gains_by_others(i)) for i in range(len(self.tests))])
         shares = 1 - left.sum(axis=0) / max(float(self.energy.sum()), 1e-300)
-        found, none = self._timing(source, shares, 0.0), self._nearest(0.0)
-        best = left[:, self._nearest(found.shift_s)]
+        found, none = self._timing(source, shares, 0.0), self._nearest_shift(0.0)
+        best = left[:, self._nearest_shift(found.shift_s)]
         if np.sum(best < left[:, none]) > np.sum(best > left[:, none]):
             return found
         # one test that is off by much pulls at what is best for all
@@ -82,32 +82,32 @@ class _Sums:
 
     def in_one(self, source: str, i: int, at_s: float) -> Timing:
         """at_s: by which all the others are moved."""
-        gains = self._gains(i)[self._nearest(at_s)]
+        gains = self._gains_by_others(i)[self._nearest_shift(at_s)]
         campaign, test = self.tests[i]
-        shares, asked = self._shares(i, gains), self._inside(i, gains, at_s)
+        shares, asked = self._shares_foretold(i, gains), self._shifts_inside(i, gains, at_s)
         best = self._timing(source, np.where(asked, shares, -np.inf), at_s)
         chance = self._chance(i, gains, best.shift_s + at_s, asked)
         found = replace(best, campaign=campaign, test=test, chance=chance, all_s=at_s)
-        quiet = self._without_loudest()._shares(i, gains)
-        near = float(quiet[self._near(at_s)].max())
+        quiet = self._without_loudest()._shares_foretold(i, gains)
+        near = float(quiet[self._shifts_near(at_s)].max())
         if clock_is_off(
-            replace(found, share=float(quiet[self._nearest(found.shift_s + at_s)]), unmoved=near), self.step_s
+            replace(found, share=float(quiet[self._nearest_shift(found.shift_s + at_s)]), unmoved=near), self.step_s
         ):
             return found
         # a probe that slips once is met by some command at some shift
-        return replace(found, shift_s=0.0, share=float(shares[self._nearest(at_s)]))
+        return replace(found, shift_s=0.0, share=float(shares[self._nearest_shift(at_s)]))
 
     def _without_loudest(self) -> _Sums:
         gram, cross, energy = self.loudest
         return replace(self, gram=self.gram - gram, cross=self.cross - cross, energy=self.energy - energy)
 
-    def _shares(self, i: int, gains: FloatND) -> Float1D:
-        return np.asarray(1 - self._left(i, gains) / max(float(self.energy[i]), 1e-300))
+    def _shares_foretold(self, i: int, gains: FloatND) -> Float1D:
+        return np.asarray(1 - self._squares_left(i, gains) / max(float(self.energy[i]), 1e-300))
 
-    def _nearest(self, shift_s: float) -> int:
+    def _nearest_shift(self, shift_s: float) -> int:
         return int(np.argmin(np.abs(self.shifts_s - shift_s)))
 
-    def _gains(self, i: int) -> Float2D:
+    def _gains_by_others(self, i: int) -> Float2D:
         """At which commands act in the other tests, at each shift, shape (s, k)."""
         whole, of_all = self.gram.sum(axis=0), self.cross.sum(axis=0)
         diagonal = np.einsum("skk->sk", whole)
@@ -115,12 +115,12 @@ class _Sums:
         ridge = held[:, :, None] * np.eye(held.shape[1])
         return np.asarray(np.linalg.solve(whole - self.gram[i] + ridge, (of_all - self.cross[i])[..., None])[..., 0])
 
-    def _inside(self, i: int, gains: Float1D, at_s: float) -> Bool1D:
+    def _shifts_inside(self, i: int, gains: Float1D, at_s: float) -> Bool1D:
         """Shifts that leave enough of what the commands do within the test, shape (s,): where nothing changes, nothing
         is foretold wrongly, and what little is left meets some jump."""
         power = np.einsum("j,sjk,k->s", gains, self.gram[i], gains)
-        whole = max(float(power[self._near(at_s)].max()), float(np.median(power)))
-        return np.asarray(self._near(at_s) | (power >= LEAST_LEFT * whole))
+        whole = max(float(power[self._shifts_near(at_s)].max()), float(np.median(power)))
+        return np.asarray(self._shifts_near(at_s) | (power >= LEAST_LEFT * whole))
 
     def _chance(self, i: int, gains: Float1D, shift_s: float, asked: Bool1D) -> float:
         """That one of all shifts that are asked goes with a test's jumps as this one does, where none is right: so far
@@ -128,7 +128,7 @@ class _Sums:
         along, power = self.cross[i] @ gains, np.einsum("j,sjk,k->s", gains, self.gram[i], gains)
         goes_with = along / np.sqrt(np.maximum(power, 1e-300))  # as a correlation, but for the energy of the jumps
         others = asked & (np.abs(self.shifts_s - shift_s) > 1.01 * AROUND * self.step_s)
-        here, many = float(goes_with[self._nearest(shift_s)]), int(asked.sum())
+        here, many = float(goes_with[self._nearest_shift(shift_s)]), int(asked.sum())
         spread = float(np.sqrt(np.mean(goes_with[others] ** 2))) if int(others.sum()) >= AROUND else 0.0
         if here <= 0 or spread <= 0:
             return 1.0
@@ -137,7 +137,7 @@ class _Sums:
             1.0, many * 0.5 * math.erfc(here / spread / math.sqrt(2.0)), float(many ** (-2.0 * max(beyond, 0.0)))
         )
 
-    def _left(self, i: int, gains: FloatND) -> Float1D:
+    def _squares_left(self, i: int, gains: FloatND) -> Float1D:
         """Squared jumps of a test at each shift, less what gains, shape (s, k) or (k,), foretell of them."""
         gains = np.broadcast_to(gains, self.cross[i].shape)
         along = np.einsum("sk,sk->s", gains, self.cross[i])
@@ -145,10 +145,10 @@ class _Sums:
 
     def _timing(self, source: str, shares: Float1D, all_s: float) -> Timing:
         best = int(np.argmax(shares))
-        unmoved = float(shares[self._near(all_s)].max())
+        unmoved = float(shares[self._shifts_near(all_s)].max())
         return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved)
 
-    def _near(self, shift_s: float) -> Bool1D:
+    def _shifts_near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= 1.01 * self.step_s)
 
 

@@ -59,7 +59,7 @@ def late_logs(logs: Logs, right: Collection[str] = ()) -> list[Late]:
 
     Where some tests tell that it is right in them, it is so in a part of the tests.
     """
-    found = _plainest(logs, [d for d in logs.disagreements() if d.plain], lambda _: right)
+    found = _plainest_late(logs, [d for d in logs.disagreements() if d.plain], lambda _: right)
     return [late for one in found if (late := logs.in_part(one, lambda _: right)) is not None]
 
 
@@ -80,11 +80,11 @@ def late_in_one(logs: Logs, right: Mapping[Key, Collection[str]]) -> list[Late]:
             together = logs.in_part(Late(None, one.shift_s, replace(one, campaign="", test="")), known)
             found += [together] if together is not None and together.part is not None else []
     inside = {key for f in found if f.part is not None for key in f.part.off}
-    single = _plainest(logs, [d for d in plain if d.key not in inside], lambda d: known(d.key))
+    single = _plainest_late(logs, [d for d in plain if d.key not in inside], lambda d: known(d.key))
     return found + (single if 2 * len({f.of.key for f in single}) < len(logs.tests) else [])
 
 
-def _plainest(
+def _plainest_late(
     logs: Logs, plain: Sequence[Disagreement], right: Callable[[Disagreement], Collection[str]]
 ) -> list[Late]:
     found: list[Late] = []
@@ -180,7 +180,7 @@ class Logs:
 
     def own(self, by: str) -> Pair | None:
         """The response, and the commands of a source."""
-        drives, home = _of(_commands(self.channels), by), self.channels[self.response].source
+        drives, home = _names_of_source(_commands(self.channels), by), self.channels[self.response].source
         air = sorted(n for n, c in self.channels.items() if is_around(c) and c.source not in ("", by))
         return pair_of(self.tests, [self.response], drives, self.step_s, warmed=home or "", by=by, air=air)
 
@@ -194,7 +194,7 @@ class Logs:
         home = self.channels[self.response].source
         own = self.own(source) if source in _commands(self.channels).values() else None
         both = [p for p in self.pairs if {p.warmed, p.by} == {source, home}]
-        left = [_left(p, by_s if p.by == source else -by_s, off) for p in filter(None, [own, *both])]
+        left = [_share_left(p, by_s if p.by == source else -by_s, off) for p in filter(None, [own, *both])]
         return bool(left) and float(np.prod(left)) <= MOST_LEFT
 
     def comes_as_logged(self, source: str, key: Key, shift_s: float) -> bool:
@@ -205,12 +205,14 @@ class Logs:
         the temperatures goes with that of the commands.
         """
         own = self.own(source)
-        if own is not None and _asked(own, key, shift_s):
+        if own is not None and _can_be_asked(own, key, shift_s):
             where_it_is, moved = either(own, shift_s, [key])
             if moved >= DECIDES and moved - where_it_is >= DECIDES:
                 return False
         return any(
-            key in sides(pair, shift_s).right for pair in self.pairs if pair.by == source and _asked(pair, key, shift_s)
+            key in sides(pair, shift_s).right
+            for pair in self.pairs
+            if pair.by == source and _can_be_asked(pair, key, shift_s)
         )
 
     def which(self, of: Disagreement, right: Collection[str], off: Collection[Key] = ()) -> Late:
@@ -262,12 +264,12 @@ def _pairs(
     for by in sorted(set(commands.values())):
         air = sorted(n for n, s in around.items() if s != by)
         for warmed in sorted(set(warm.values()) - {by}):
-            names, drives = _of(warm, warmed), _of(commands, by)
+            names, drives = _names_of_source(warm, warmed), _names_of_source(commands, by)
             pairs.append(pair_of(tests, names, drives, step_s, warmed=warmed, by=by, air=air))
     return tuple(p for p in pairs if p is not None)
 
 
-def _asked(pair: Pair, key: Key, shift_s: float) -> bool:
+def _can_be_asked(pair: Pair, key: Key, shift_s: float) -> bool:
     """Whether enough of a test is left with the commands moved, so that heat can say which of two times is right."""
     near = np.abs(pair.shifts_s - shift_s) <= UNMOVED_S
     return any(
@@ -275,7 +277,7 @@ def _asked(pair: Pair, key: Key, shift_s: float) -> bool:
     )
 
 
-def _left(pair: Pair, shift_s: float, off: set[Key]) -> float:
+def _share_left(pair: Pair, shift_s: float, off: set[Key]) -> float:
     """What is left of tests with the commands moved, in shares of what is left with them where they are; 1 where that
     is not asked."""
     if off.isdisjoint(t.key for t in pair.tests) or np.abs(pair.shifts_s - shift_s).min() > UNMOVED_S:
@@ -293,5 +295,5 @@ def _commands(channels: Mapping[str, ChannelInfo]) -> dict[str, str]:
     return {n: c.source for n, c in channels.items() if c.source and is_command(c)}
 
 
-def _of(sources: Mapping[str, str], source: str) -> list[str]:
+def _names_of_source(sources: Mapping[str, str], source: str) -> list[str]:
     return sorted(n for n, s in sources.items() if s == source)

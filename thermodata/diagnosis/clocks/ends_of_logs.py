@@ -50,10 +50,10 @@ class OddEnds:
         """What makes the two agree; None where the response is in neither, and nobody can tell which is off.
         home: the source of the response."""
         if home == self.early:
-            return self._moved(self.late, -self.shift_s)
-        return self._moved(self.early, self.shift_s) if home == self.late else None
+            return self._clock_moved(self.late, -self.shift_s)
+        return self._clock_moved(self.early, self.shift_s) if home == self.late else None
 
-    def _moved(self, source: str, by_s: float) -> ClockMoved:
+    def _clock_moved(self, source: str, by_s: float) -> ClockMoved:
         return ClockMoved(source=source, campaign=self.campaign, test=self.test, moved_s=by_s)
 
 
@@ -110,17 +110,17 @@ class Ends:
                     f"To mend the log too, declare at this test {line}; if the log's own clock was right, "
                     f"clocks: {{{move.source}: 0 s}}, and it is not asked again"
                 )
-            found.append(_told(odd.campaign, odd.test, f"{said}. {then}"))
+            found.append(_as_artefact(odd.campaign, odd.test, f"{said}. {then}"))
         known = {m.source for m in moved if not m.test}
         return found + [
-            _told(campaign, "", f"{one}. Nothing was moved for it here, for {_BY_NO_HEAT_AT_ALL}")
+            _as_artefact(campaign, "", f"{one}. Nothing was moved for it here, for {_BY_NO_HEAT_AT_ALL}")
             for campaign, some in self.hours.items()
             for one in some
             if known.isdisjoint((one.late, one.early))
         ]
 
 
-def _told(campaign: str, test: str, why: str) -> Artefact:
+def _as_artefact(campaign: str, test: str, why: str) -> Artefact:
     return Artefact(kind="clock_offset", campaign=campaign, test=test, at_s=None, size_um=None, why=why)
 
 
@@ -172,7 +172,7 @@ def ends_of_logs(store: Store, model: Loaded) -> Ends:
     agree: dict[Key, frozenset[str]] = {}
     hours: dict[str, list[HoursApart]] = {}
     for campaign in sorted({c for c, _ in here}):
-        rows = _sources(store, campaign)
+        rows = _sources_by_test(store, campaign)
         said = {test: {s for c, t, s in declared if (c, t) == (campaign, test) and s} for test in rows}
         agree |= {(campaign, test): sources for test, sources in together(rows, said).items()}
         hours[campaign] = whole_hours(rows, said)
@@ -193,7 +193,7 @@ def _as_told(one: OddClock, campaign: str, test: str, word: Collection[tuple[str
     return OddEnds(campaign, test, *both, one.shift_s, str(one), one.seen, in_place, stays)
 
 
-def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, Any]]]:
+def _sources_by_test(store: Store, campaign: str) -> dict[str, list[dict[str, Any]]]:
     """Test -> its rows of the table `source`, each with its pauses and how long its files last, as ingest has them."""
     from thermodata.store.ingest.told.clocks.ends import with_lengths, with_pauses
 

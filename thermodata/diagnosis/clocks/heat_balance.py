@@ -90,7 +90,10 @@ def pair_of(
     long = [t for t in tests if len(t.t_s) // every > 2 * over]
     if len(long) < LEAST_TESTS:
         return None
-    parts = [(_held(t, drives, every), _even(t, names, every), _even(t, air, every)) for t in long]
+    parts = [
+        (_commands_held(t, drives, every), _channels_evened(t, names, every), _channels_evened(t, air, every))
+        for t in long
+    ]
     shifts = _shifts(every * step_s)
     return Pair(
         warmed, by, tuple(long), np.asarray(shifts * (every * step_s), dtype=np.float64), *_sums(parts, shifts, over)
@@ -122,12 +125,12 @@ class Pair:
 
     def in_all(self) -> Disagreement | None:
         """In tests left out. None where nothing tells."""
-        shares = self._shares()
+        shares = self._shares_foretold()
         return self._disagreement(shares, shares.max(axis=1) >= TELLS)
 
     def in_one(self, i: int) -> Disagreement | None:
         """In one test, with commands that act as they do in the others unmoved. None where nothing tells."""
-        shares, usual = self._shares(i), self._told_elsewhere(i) >= TELLS
+        shares, usual = self._shares_foretold(i), self._told_elsewhere(i) >= TELLS
         # what the commands foretell in no other test goes with them by chance here: a hall, at some shift of two hours
         telling = (shares.max(axis=1) >= TELLS) & usual
         found = self._disagreement(shares, telling)
@@ -135,7 +138,7 @@ class Pair:
             return None
         left, at = 1 - self.by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
         rest = float(self._at_rest(i)[telling][:, at].mean())
-        own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
+        own = left[self._shifts_near(found.shift_s)].min() / max(float(left[self._shifts_near(0.0)].min()), 1e-300)
         tell = float(telling[usual].mean())
         return replace(
             found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest, tell=tell
@@ -147,39 +150,45 @@ class Pair:
         i = next((i for i, t in enumerate(self.tests) if t.key == (campaign, test)), None)
         if test and i is None:
             return [0.0] * len(about_s)
-        mean = self._shares(i).mean(axis=0)
-        return [float(mean[self._near(at_s)].max()) for at_s in about_s]
+        mean = self._shares_foretold(i).mean(axis=0)
+        return [float(mean[self._shifts_near(at_s)].max()) for at_s in about_s]
 
     def told(self, i: int, gains: FloatND) -> Float2D:
         """Of a test's squared rises, what gains, shape (channels, 1 or s, k), foretell: shape (channels, s)."""
-        return _share(self._left([i], gains), self.energy[i])
+        return _share_foretold(self._squares_left([i], gains), self.energy[i])
 
-    def _near(self, shift_s: float) -> Bool1D:
+    def _shifts_near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= UNMOVED_S)
 
-    def _shares(self, i: int | None = None) -> Float2D:
+    def _shares_foretold(self, i: int | None = None) -> Float2D:
         """Of the squared rises, foretold: shape (channels, s). i: the test that is asked of, by the others unmoved."""
         if i is not None:
-            return _share(self._left([i], self._unmoved(_but(self.tests, i))), self.energy[i])
-        left = sum(self._left([t], self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
-        return _share(np.asarray(left), self.energy.sum(axis=0))
+            return _share_foretold(
+                self._squares_left([i], self._gains_unmoved(_all_but(self.tests, i))), self.energy[i]
+            )
+        left = sum(self._squares_left([t], self._gains(_all_but(self.tests, t))) for t in range(len(self.tests)))
+        return _share_foretold(np.asarray(left), self.energy.sum(axis=0))
 
     def _told_elsewhere(self, i: int) -> Float1D:
         """The share that is foretold in all tests but one, unmoved, by their own gains: shape (channels,)."""
-        others = _but(self.tests, i)
-        shares = _share(self._left(others, self._unmoved(others)), self.energy[others].sum(axis=0))
+        others = _all_but(self.tests, i)
+        shares = _share_foretold(
+            self._squares_left(others, self._gains_unmoved(others)), self.energy[others].sum(axis=0)
+        )
         return shares[:, self.shifts_s == 0][:, 0]
 
     def _at_rest(self, i: int) -> Float2D:
         """The same of a test as if no command worked in it."""
-        gains = self._unmoved(_but(self.tests, i))
-        return _share(self._left([i], gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
+        gains = self._gains_unmoved(_all_but(self.tests, i))
+        return _share_foretold(
+            self._squares_left([i], gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i]
+        )
 
     def by_its_own(self, i: int) -> Float2D:
         """The same of a test with the gains that it gives itself."""
-        return _share(self._left([i], self._gains([i])), self.energy[i])
+        return _share_foretold(self._squares_left([i], self._gains([i])), self.energy[i])
 
-    def _unmoved(self, of: Sequence[int]) -> FloatND:
+    def _gains_unmoved(self, of: Sequence[int]) -> FloatND:
         """The gains at no shift: shape (channels, 1, k)."""
         at = self.shifts_s == 0
         return replace(self, gram=self.gram[:, :, at], cross=self.cross[:, :, at])._gains(of)
@@ -192,7 +201,7 @@ class Pair:
         held = RIDGE * np.eye(size.shape[-1])
         return np.asarray(np.linalg.solve(gram + held, (self.cross[of].sum(axis=0) / size)[..., None])[..., 0] / size)
 
-    def _left(self, of: Sequence[int], gains: FloatND) -> Float2D:
+    def _squares_left(self, of: Sequence[int], gains: FloatND) -> Float2D:
         """Squared rises of some tests, less what gains foretell of them, shape (channels, s)."""
         energy, cross, gram = (each[of].sum(axis=0) for each in (self.energy, self.cross, self.gram))
         gains = np.broadcast_to(gains, cross.shape)
@@ -207,15 +216,15 @@ class Pair:
             return None
         mean = telling.mean(axis=0)
         best = int(np.argmax(mean))
-        unmoved = float(mean[self._near(0.0)].max())
+        unmoved = float(mean[self._shifts_near(0.0)].max())
         return Disagreement(self.warmed, self.by, float(self.shifts_s[best]), float(mean[best]), unmoved, len(telling))
 
 
-def _share(left: Float2D, energy: Float2D) -> Float2D:
+def _share_foretold(left: Float2D, energy: Float2D) -> Float2D:
     return np.where(energy > 0, 1 - left / np.maximum(energy, 1e-300), 0.0)
 
 
-def _but(tests: Sequence[TestData], i: int) -> list[int]:
+def _all_but(tests: Sequence[TestData], i: int) -> list[int]:
     return [t for t in range(len(tests)) if t != i]
 
 
@@ -226,7 +235,7 @@ def _shifts(step_s: float) -> Int1D:
     return np.unique(np.concatenate([np.arange(-most, most + 1), *two_hours])).astype(np.int64)
 
 
-def _held(test: TestData, names: Sequence[str], every: int) -> Float2D:
+def _commands_held(test: TestData, names: Sequence[str], every: int) -> Float2D:
     """Sizes of commands, each value held until the next; 0 where a command was not logged. Shape (n, commands)."""
     columns = np.zeros((len(test.t_s), len(names)))
     for column, name in zip(columns.T, names, strict=True):
@@ -234,10 +243,10 @@ def _held(test: TestData, names: Sequence[str], every: int) -> Float2D:
         if len(known):
             last = np.searchsorted(known, np.arange(len(column)), side="right") - 1
             column[:] = np.abs(test.values[name][known[np.clip(last, 0, None)]])
-    return _means(columns, every)
+    return _row_means(columns, every)
 
 
-def _even(test: TestData, names: Sequence[str], every: int) -> Float2D:
+def _channels_evened(test: TestData, names: Sequence[str], every: int) -> Float2D:
     """Channels at even times, drawn straight over holes; zeros where one was not measured. Shape (n, channels)."""
     columns = np.zeros((len(test.t_s), len(names)))
     for column, name in zip(columns.T, names, strict=True):
@@ -245,10 +254,10 @@ def _even(test: TestData, names: Sequence[str], every: int) -> Float2D:
             seen = np.flatnonzero(np.isfinite(test.values[name]) & test.valid[name])
             if len(seen) > 1:
                 column[:] = np.interp(test.t_s, test.t_s[seen], test.values[name][seen])
-    return _means(columns, every)
+    return _row_means(columns, every)
 
 
-def _means(columns: Float2D, every: int) -> Float2D:
+def _row_means(columns: Float2D, every: int) -> Float2D:
     whole = len(columns) // every
     return np.asarray(columns[: whole * every].reshape(whole, every, columns.shape[1]).mean(axis=1))
 

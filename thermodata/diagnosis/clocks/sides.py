@@ -77,14 +77,14 @@ def in_words(part: ShiftedPart | None) -> str:
     if part is None:
         return ""
     begins = f" from {part.since[1]} on" if part.since else f" up to {part.until[1]}" if part.until else ""
-    tests = f"{begins} ({_listed(part.off)})" if begins else f" in {_listed(part.off)}"
+    tests = f"{begins} ({_tests_in_words(part.off)})" if begins else f" in {_tests_in_words(part.off)}"
     if not part.right:
         return tests
     doubt = "" if part.plain else ", and nothing tells which of the two is the rule"
-    return f"{tests}, while in {_listed(part.right)} they agree as they were logged{doubt}"
+    return f"{tests}, while in {_tests_in_words(part.right)} they agree as they were logged{doubt}"
 
 
-def _listed(tests: Sequence[Key]) -> str:
+def _tests_in_words(tests: Sequence[Key]) -> str:
     names = [test for _, test in tests]
     return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
@@ -102,45 +102,45 @@ class Sides:
     @property
     def off(self) -> frozenset[Key]:
         """Tests of which more is foretold with the commands moved."""
-        return self._where(self._moved, self._unmoved)
+        return self._tests_that_tell(self._shares_moved, self._shares_unmoved)
 
     @property
     def right(self) -> frozenset[Key]:
         """Tests of which more is foretold with the commands as they were logged."""
-        return self._where(self._unmoved, self._moved)
+        return self._tests_that_tell(self._shares_unmoved, self._shares_moved)
 
     @property
     def foretold(self) -> float:
         """In all tests, each where more is."""
-        return float(np.maximum(self._unmoved, self._moved).sum())
+        return float(np.maximum(self._shares_unmoved, self._shares_moved).sum())
 
     def of_off(self) -> tuple[float, float]:
         """Of the tests that are off: what is foretold unmoved, and moved."""
         here = self._rows(self.off)
-        return float(self._unmoved[here].mean()), float(self._moved[here].mean())
+        return float(self._shares_unmoved[here].mean()), float(self._shares_moved[here].mean())
 
     def apart_s(self) -> float:
         """By which clocks differ from what they are in tests that are right, where bodies are as late as here."""
-        return self._best(self.off, self.shift_s) - self._best(self.right, 0.0)
+        return self._best_shift_s(self.off, self.shift_s) - self._best_shift_s(self.right, 0.0)
 
     @property
-    def _unmoved(self) -> Float1D:
-        return np.asarray(self.shares[:, _near(self.shifts_s, 0.0)].max(axis=1))
+    def _shares_unmoved(self) -> Float1D:
+        return np.asarray(self.shares[:, _shifts_near(self.shifts_s, 0.0)].max(axis=1))
 
     @property
-    def _moved(self) -> Float1D:
-        return np.asarray(self.shares[:, _near(self.shifts_s, self.shift_s)].max(axis=1))
+    def _shares_moved(self) -> Float1D:
+        return np.asarray(self.shares[:, _shifts_near(self.shifts_s, self.shift_s)].max(axis=1))
 
-    def _best(self, tests: Collection[Key], about_s: float) -> float:
+    def _best_shift_s(self, tests: Collection[Key], about_s: float) -> float:
         if not tests:
             return about_s
-        near = _near(self.shifts_s, about_s)
+        near = _shifts_near(self.shifts_s, about_s)
         return float(self.shifts_s[near][self.shares[self._rows(tests)][:, near].mean(axis=0).argmax()])
 
     def _rows(self, tests: Collection[Key]) -> Bool1D:
         return np.array([key in tests for key in self.keys])
 
-    def _where(self, more: Float1D, less: Float1D) -> frozenset[Key]:
+    def _tests_that_tell(self, more: Float1D, less: Float1D) -> frozenset[Key]:
         tells = (more >= TELLS) & (more - less >= APART)
         return frozenset(key for key, t in zip(self.keys, tells.tolist(), strict=True) if t)
 
@@ -148,18 +148,18 @@ class Sides:
 def sides(pair: Pair, shift_s: float) -> Sides:
     """In which tests the commands are off by a shift: of two beginnings, all of them and none, the one that foretells
     most in the end."""
-    ends = [_settled(pair, shift_s, np.full(len(pair.tests), start)) for start in (False, True)]
+    ends = [_settle_sides(pair, shift_s, np.full(len(pair.tests), start)) for start in (False, True)]
     return max(ends, key=lambda e: e.foretold)
 
 
-def _settled(pair: Pair, shift_s: float, is_off: Bool1D) -> Sides:
+def _settle_sides(pair: Pair, shift_s: float, is_off: Bool1D) -> Sides:
     """Once each test lies where more of it is foretold."""
     none, at = (int(np.argmin(np.abs(pair.shifts_s - s))) for s in (0.0, shift_s))
     keys = tuple(t.key for t in pair.tests)
     for _ in range(ROUNDS):
-        shares = [_told(pair, i, np.where(is_off, at, none), shift_s) for i in range(len(keys))]
+        shares = [_mean_shares(pair, i, np.where(is_off, at, none), shift_s) for i in range(len(keys))]
         found = Sides(keys, shift_s, pair.shifts_s, np.array(shares))
-        now = found._moved > found._unmoved
+        now = found._shares_moved > found._shares_unmoved
         if (now == is_off).all():
             break
         is_off = now
@@ -175,7 +175,7 @@ def own_shifts(pair: Pair) -> list[float]:
         if len(telling) >= LEAST_TELLING:
             left = 1 - telling.mean(axis=0)
             best_s = float(pair.shifts_s[left.argmin()])
-            halves = float(left.min()) <= MOST_OWN * float(left[_near(pair.shifts_s, 0.0)].min())
+            halves = float(left.min()) <= MOST_OWN * float(left[_shifts_near(pair.shifts_s, 0.0)].min())
             if halves and not any(abs(best_s - s) <= UNMOVED_S for s in found):
                 found.append(best_s)
     return found
@@ -190,22 +190,22 @@ def either(pair: Pair, shift_s: float, off: Collection[Key]) -> tuple[float, flo
         return 0.0, 0.0
     means = []
     for about_s, lie in ((0.0, np.full(len(is_off), none)), (shift_s, np.where(is_off, at, none))):
-        near = _near(pair.shifts_s, about_s)
-        told = [pair.told(int(i), _gains(pair, int(i), lie)[:, None]) for i in np.flatnonzero(is_off)]
+        near = _shifts_near(pair.shifts_s, about_s)
+        told = [pair.told(int(i), _gains_by_others(pair, int(i), lie)[:, None]) for i in np.flatnonzero(is_off)]
         means.append(float(np.mean([shares[:, near].max(axis=1).mean() for shares in told])))
     return means[0], means[1]
 
 
-def _told(pair: Pair, i: int, lie: Int1D, shift_s: float) -> Float1D:
+def _mean_shares(pair: Pair, i: int, lie: Int1D, shift_s: float) -> Float1D:
     """Mean share at each shift of the temperatures that tell in a test unmoved or moved; zeros where fewer than two
     do. lie: of each test, at which shift its commands are taken."""
-    shares = pair.told(i, _gains(pair, i, lie)[:, None])
-    asked = _near(pair.shifts_s, 0.0) | _near(pair.shifts_s, shift_s)
+    shares = pair.told(i, _gains_by_others(pair, i, lie)[:, None])
+    asked = _shifts_near(pair.shifts_s, 0.0) | _shifts_near(pair.shifts_s, shift_s)
     tell = shares[:, asked].max(axis=1) >= TELLS
     return np.asarray(shares[tell].mean(axis=0)) if int(tell.sum()) >= LEAST_TELLING else np.zeros(len(pair.shifts_s))
 
 
-def _gains(pair: Pair, i: int, lie: Int1D) -> FloatND:
+def _gains_by_others(pair: Pair, i: int, lie: Int1D) -> FloatND:
     """At which commands act in all tests but one, each where it lies: shape (channels, k)."""
     others = [t for t in range(len(pair.tests)) if t != i]
     size = np.sqrt(np.einsum("tnskk->nk", pair.gram))
@@ -215,5 +215,5 @@ def _gains(pair: Pair, i: int, lie: Int1D) -> FloatND:
     return np.asarray(np.linalg.solve(gram + RIDGE * np.eye(size.shape[-1]), cross[..., None])[..., 0] / size)
 
 
-def _near(shifts_s: Float1D, about_s: float) -> Bool1D:
+def _shifts_near(shifts_s: Float1D, about_s: float) -> Bool1D:
     return np.asarray(np.abs(shifts_s - about_s) <= UNMOVED_S)

@@ -74,7 +74,7 @@ class Timings:
             asked = [t for t in told if t.key not in fixed]
             keys = [key for key in order or [t.key for t in told] if key not in fixed]
             whole, single = clock_is_off(of_all, self.step_s), [t for t in asked if clock_is_off(t, self.step_s)]
-            part = self._part(of_all.shift_s if whole else 0.0, asked, single, keys)
+            part = self._shifted_part(of_all.shift_s if whole else 0.0, asked, single, keys)
             if part is not None:
                 by = of_all if whole else max(single, key=lambda t: t.share)
                 found.append(replace(by, campaign="", test="", part=part))
@@ -84,7 +84,7 @@ class Timings:
             found += single if 2 * len(single) < len(told) else []
         return found
 
-    def _part(
+    def _shifted_part(
         self, all_s: float, asked: list[Timing], single: list[Timing], order: Sequence[Key]
     ) -> ShiftedPart | None:
         """The tests in which a clock is off, where some tell that it is not; None where that is no part of them. all_s:
