@@ -161,10 +161,10 @@ def asked_again(monkeypatch: pytest.MonkeyPatch, first: Judgement, second: Judge
         without.append(refused)
         return SimpleNamespace(looked_for=())
 
-    monkeypatch.setattr(unlocking, "_opened", lambda *given: next(answers))
+    monkeypatch.setattr(unlocking, "_judgement_unlocked", lambda *given: next(answers))
     heats = tuple(replace(j, warms=TURRET.candidate.id) for j in first.claims[:2])
     monkeypatch.setattr(unlocking, "_one_body", lambda *given: OneBody(TURRET.candidate.id, heats, 0.5, 1.0))
-    monkeypatch.setattr(unlocking, "_turned", lambda *given: {})
+    monkeypatch.setattr(unlocking, "_turned_tests", lambda *given: {})
     concluded = unlocking.unlocked(ask, lambda locked: cast("Fits", None), [LOCKED]).judgement
     return concluded, set(without[-1])
 

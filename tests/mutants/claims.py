@@ -489,7 +489,7 @@ MUTANTS = [
         "a motor that a sensor reads may be it",
     ),
     diagnosis("of_claim.py", "if acts and test.kind in _NOTHING_IS_CUT)", "if acts)", "the cut acts where it is cut"),
-    diagnosis("opened.py", "(_key(j) in unsound and silent)", "False", "locked tests that rest outweigh a rule"),
+    diagnosis("opened.py", "(_member_key(j) in unsound and silent)", "False", "locked tests that rest outweigh a rule"),
     diagnosis("judge.py", "if may_be_confirmed(j.scored)", "if True", "the lock is opened for everything"),
     diagnosis("judge.py", "alone = len(broken) == 1 and", "alone = broken and", "what breaks two rules is asked"),
     diagnosis("judge.py", "broken[0] in (*OUTWEIGHED, *few) and", "", "what the tests go against is asked"),

@@ -123,15 +123,15 @@ def confirm(
     more = fit_model(extended(spec, candidates), data)
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
-    found, terms = more.parameters(), _terms(more, base, candidates)
+    found, terms = more.parameters(), _terms_by_candidate(more, base, candidates)
     own = None if stands is None else _told_apart(rmse(stands, usable), rmse(ours, usable))
-    does, most = _sizes(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable)
+    does, most = _sizes_of_added(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable)
     return Confirmation(
         rmse(ours, usable),
         rmse(theirs, usable),
         rmse(ours, usable, free=True),
         rmse(theirs, usable, free=True),
-        _changed(ours, theirs, usable),
+        _rms_changed(ours, theirs, usable),
         {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()},
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
@@ -140,7 +140,7 @@ def confirm(
         acts=frozenset(key for key, size in does.items() if most > 0 and size >= ACTS * most),
         does=does,
         most=most,
-        implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
+        implausible={c: _implausible_gains(theirs.checks, some) for c, some in terms.items()},
         fitted=theirs,
         stands=own,
         stands_each={} if own is None or stands is None else _each_error(stands, usable),
@@ -219,7 +219,7 @@ def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None)
     return Foretold(before, after, changed, tests=tests, rows=rows)
 
 
-def _sizes(
+def _sizes_of_added(
     ours: FittedResponse,
     theirs: FittedResponse,
     changed: Collection[str],
@@ -256,20 +256,22 @@ def shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
     return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
 
 
-def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
+def _rms_changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
     parts = [shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
     whole = np.concatenate([p for p in parts if len(p)] or [np.zeros(1)])
     return float(np.sqrt(np.mean(whole**2)))
 
 
-def _terms(more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]) -> dict[str, tuple[str, ...]]:
+def _terms_by_candidate(
+    more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
+) -> dict[str, tuple[str, ...]]:
     """The effects that each candidate changed, or that were added in its order, by its id."""
     had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
     added = iter(name for name in term_ids(more.spec.effects) if name not in had)
     return {c.id: c.becomes or (next(added),) for c in candidates}
 
 
-def _implausible(checks: Sequence[Check], terms: Sequence[str]) -> tuple[str, ...]:
+def _implausible_gains(checks: Sequence[Check], terms: Sequence[str]) -> tuple[str, ...]:
     """What the checks of a response say of the gains of some effects."""
     begins = tuple(f"{IMPLAUSIBLE}{name}." for name in terms)
     return tuple(c.advice for c in checks if c.name.startswith(begins))

@@ -31,13 +31,13 @@ def as_artefacts(found: Sequence[tuple[TestData, TestData]], response: str) -> l
             test=one.test,
             at_s=None,
             size_um=None,
-            why=_why(one, other, response),
+            why=_why_left_out(one, other, response),
         )
         for one, other in found
     ]
 
 
-def _why(one: TestData, other: TestData, response: str) -> str:
+def _why_left_out(one: TestData, other: TestData, response: str) -> str:
     name = other.test if other.campaign == one.campaign else "/".join(other.key)
     span = None if same_recording(one, other, response) else shared_samples(one, other, response)
     if span is not None:

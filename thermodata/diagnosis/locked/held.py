@@ -29,13 +29,13 @@ OUTWEIGHED = (
 def held(result: Confirmed, by_shape: bool | None) -> Confirmed:
     """With `holds`, `holds_by_shape` and `why`. by_shape: of the locked tests in which it acts, a free offset for each;
     None where it rests in all of them."""
-    rises = _rises([t for t in result.tests if t.acts])
+    rises = _error_rises([t for t in result.tests if t.acts])
     before, after = result.locked_shape_um_before, result.locked_shape_um_after
     if by_shape is None:
         holds, why = None, RESTS
     elif by_shape:
-        elsewhere = RISES_ELSEWHERE if _rises(result.tests) else ""
-        level = AS_SCORED if not elsewhere and not _falls([t for t in result.tests if t.acts]) else ""
+        elsewhere = RISES_ELSEWHERE if _error_rises(result.tests) else ""
+        level = AS_SCORED if not elsewhere and not _error_falls([t for t in result.tests if t.acts]) else ""
         holds, why = not rises, IN_SHAPE_ONLY if rises else HOLDS + level + elsewhere
     else:
         falls = before is None or after is None or after < before
@@ -56,19 +56,19 @@ def as_held(known: Confirmed) -> Confirmed:
     return held(known, known.holds if known.why is None else known.holds_by_shape)
 
 
-def _rises(tests: Sequence[TestConfirmed]) -> bool:
+def _error_rises(tests: Sequence[TestConfirmed]) -> bool:
     """Whether the error as scored rises by as much as counts for a fall. Tests weigh by their samples, alike where
     an older answer does not say how many."""
-    before, after = _squares(tests)
+    before, after = _squared_errors(tests)
     return after > (1 + LEAST) ** 2 * before
 
 
-def _falls(tests: Sequence[TestConfirmed]) -> bool:
-    before, after = _squares(tests)
+def _error_falls(tests: Sequence[TestConfirmed]) -> bool:
+    before, after = _squared_errors(tests)
     return after < before
 
 
-def _squares(tests: Sequence[TestConfirmed]) -> tuple[float, float]:
+def _squared_errors(tests: Sequence[TestConfirmed]) -> tuple[float, float]:
     """Sums of squared errors as scored, before and after."""
     before = sum(t.rmse_um_before**2 * (t.n or 1) for t in tests)
     after = sum(t.rmse_um_after**2 * (t.n or 1) for t in tests)

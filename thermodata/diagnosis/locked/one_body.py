@@ -37,7 +37,12 @@ def one_body(claims: Sequence[Judged], ranked: Sequence[Scored], fits: Fits) -> 
     if len(claims) < SEVERAL or not fits.locked:
         return None
     bodies = [s.candidate for s in ranked if len(s.rows) and _is_body(s.candidate, claims, fits)]
-    found = [one for body in bodies for heats in _several(claims) if (one := _in_place(body, heats, claims, fits))]
+    found = [
+        one
+        for body in bodies
+        for heats in _combinations_of_claims(claims)
+        if (one := _in_place(body, heats, claims, fits))
+    ]
     return min(found, key=lambda one: (-len(one.heats), one.left), default=None)
 
 
@@ -50,7 +55,7 @@ def _is_body(one: CandidateEffect, claims: Sequence[Judged], fits: Fits) -> bool
     return named and own and not (one.around or one.passive) and claimed.isdisjoint(one.channels)
 
 
-def _several(claims: Sequence[Judged]) -> Iterator[tuple[Judged, ...]]:
+def _combinations_of_claims(claims: Sequence[Judged]) -> Iterator[tuple[Judged, ...]]:
     for count in range(len(claims), SEVERAL - 1, -1):
         yield from combinations(claims, count)
 
@@ -62,7 +67,7 @@ def _in_place(body: CandidateEffect, heats: tuple[Judged, ...], claims: Sequence
         theirs = fits.of([*kept, body])
     except ThermodataError:  # no open test has all of their channels
         return None
-    if _alike(without, ours, theirs, fits) < ALIKE:
+    if _likeness(without, ours, theirs, fits) < ALIKE:
         return None
     usable = [t for t in fits.locked if ours.can_predict(t) and theirs.can_predict(t)]
     errors = [rmse(f, usable, free=free) for free in (False, True) for f in (theirs, ours)]
@@ -72,7 +77,7 @@ def _in_place(body: CandidateEffect, heats: tuple[Judged, ...], claims: Sequence
     return OneBody(body.id, tuple(replace(j, warms=body.id) for j in heats), left, left_by_heats)
 
 
-def _alike(without: FittedResponse, one: FittedResponse, other: FittedResponse, fits: Fits) -> float:
+def _likeness(without: FittedResponse, one: FittedResponse, other: FittedResponse, fits: Fits) -> float:
     """Cosine of what two models change in the open tests, about each one's mean."""
     usable = [t for t in fits.tests if all(f.can_predict(t) for f in (without, one, other))]
     products = np.zeros((2, 2))

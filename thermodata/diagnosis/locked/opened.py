@@ -34,21 +34,21 @@ def kept_where_they_hold(
     else stands; where nothing was claimed before, it is concluded again. may_be: whether a twin keeps the rules itself,
     and is likely. conclude: judges members anew. unit: of the response."""
     asked, claims = [*judgement.claims, *judgement.likely], len(judgement.claims)
-    unsound = {_key(j) for j in judgement.likely} - {_key(j) for j in judgement.judged}
-    told = {_key(j): j for j in judgement.judged}  # as it was looked at last, no twin in its place
-    untried = set(map(_key, asked))
+    unsound = {_member_key(j) for j in judgement.likely} - {_member_key(j) for j in judgement.judged}
+    told = {_member_key(j): j for j in judgement.judged}  # as it was looked at last, no twin in its place
+    untried = set(map(_member_key, asked))
     refused: list[int] = []
     while asked:
         said = [look(asked, place) for place in range(len(asked))]
-        asked = [_with(j, one) for j, one in zip(asked, said, strict=True)]
+        asked = [_with_look(j, one) for j, one in zip(asked, said, strict=True)]
         if any(one is None for one in said):
             return replace(judgement, likely=())
-        told.update({_key(j): j for j in asked if j.in_place_of is None})
+        told.update({_member_key(j): j for j in asked if j.in_place_of is None})
         short = [place for place, j in enumerate(asked) if _falls_short(j, unsound)]
         if not short:
             break
         worst = min([place for place in short if place >= claims] or short, key=lambda place: _standing(asked[place]))
-        key = _key(asked[worst])
+        key = _member_key(asked[worst])
         if key in untried and asked[worst].refines is None:
             untried.discard(key)
             if (twin := _best_twin(asked, worst, look, may_be)) is not None:
@@ -59,26 +59,26 @@ def kept_where_they_hold(
             claims -= 1
         asked.pop(worst)
     standing = causes(asked)
-    told.update({_key(j): j for j in standing})
+    told.update({_member_key(j): j for j in standing})
     judged = tuple(told.values())
-    gone = tuple(told[_key(c)] for c in judgement.claims if _key(c) in refused)
+    gone = tuple(told[_member_key(c)] for c in judgement.claims if _member_key(c) in refused)
     found = replace(judgement, judged=judged, likely=(), refused=gone)
     if standing:
-        told_now = {_key(j) for j in standing}
-        kept = tuple(j for j in judgement.refinements if _key(j) not in told_now)
+        told_now = {_member_key(j) for j in standing}
+        kept = tuple(j for j in judgement.refinements if _member_key(j) not in told_now)
         return replace(found, verdict="effect", claims=standing, refinements=kept, reason="")
     if gone:
-        return replace(found, verdict="unknown", claims=(), reason=_why(gone, unit))
-    anew = conclude(tuple(told[_key(j)] for j in judgement.judged))
+        return replace(found, verdict="unknown", claims=(), reason=_why_refused(gone, unit))
+    anew = conclude(tuple(told[_member_key(j)] for j in judgement.judged))
     return replace(anew, judged=judged, likely=())
 
 
-def _key(j: Judged) -> int:
+def _member_key(j: Judged) -> int:
     """A member stays the same when a twin takes its place."""
     return id(j.alone.columns)
 
 
-def _with(j: Judged, said: Looked | None) -> Judged:
+def _with_look(j: Judged, said: Looked | None) -> Judged:
     return replace(j, scored=replace(j.scored, looked=said))
 
 
@@ -88,7 +88,7 @@ def _falls_short(j: Judged, unsound: set[int]) -> bool:
     silent = looked is None or not looked.saying or not looked.bears_out
     if j.refines is not None and (looked is None or not looked.of_its_own):
         return True
-    return _is_refuted(j) or blunt(j.scored) is not None or (_key(j) in unsound and silent)
+    return _is_refuted(j) or blunt(j.scored) is not None or (_member_key(j) in unsound and silent)
 
 
 def _is_refuted(j: Judged) -> bool:
@@ -106,7 +106,7 @@ def _best_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable
     names = {j.scored.candidate.id for j in asked}
     found = []
     for twin in _twins(asked[place], may_be, names):
-        told = _with(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
+        told = _with_look(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
         if not _falls_short(told, set()):
             found.append(told)
     best = max(found, key=_standing, default=None)
@@ -138,7 +138,7 @@ def _families(one: Scored, ranked: Sequence[Scored]) -> set[str]:
     return {*(c.family for c in named if c.family not in UNNAMED), *own.channels}
 
 
-def _why(refused: Sequence[Judged], unit: str) -> str:
+def _why_refused(refused: Sequence[Judged], unit: str) -> str:
     """With the errors of the look in which it falls least."""
     names = [j.scored.candidate.id for j in refused]
     explain, them = ("explains", "it") if len(names) == 1 else ("explain", "them")

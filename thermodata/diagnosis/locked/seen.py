@@ -27,8 +27,8 @@ def shown_again(before: Sequence[TestConfirmed], now: Sequence[TestConfirmed]) -
         for key, t in (((t.campaign, t.test), t) for t in now)
         if (was := known.get(key)) is not None
         and t.n == was.n
-        and _alike(t.rmse_um_before, was.rmse_um_before)
-        and _alike(t.rmse_um_after, was.rmse_um_after)
+        and _figures_agree(t.rmse_um_before, was.rmse_um_before)
+        and _figures_agree(t.rmse_um_after, was.rmse_um_after)
     }
 
 
@@ -36,13 +36,13 @@ def told_again(before: Diagnosis | None, now: Diagnosis) -> set[str]:
     """The candidates of which a diagnosis tells the same of the locked tests as the one before did."""
     if before is None or before.response != now.response:
         return set()
-    known = {c.id: _told(c) for c in before.candidates}
+    known = {c.id: _locked_figures(c) for c in before.candidates}
     return {
         c.id
         for c in now.candidates
         if (was := known.get(c.id)) is not None
         and any(value is not None for value in was)
-        and all(_alike(value, then) for value, then in zip(_told(c), was, strict=True))
+        and all(_figures_agree(value, then) for value, then in zip(_locked_figures(c), was, strict=True))
     }
 
 
@@ -78,7 +78,7 @@ def of_response(model: Loaded, response: str) -> str:
     return "" if len(model.fitted.responses) == 1 else f" of {response}"
 
 
-def _told(c: Candidate) -> tuple[float | None, ...]:
+def _locked_figures(c: Candidate) -> tuple[float | None, ...]:
     return (
         c.locked_rmse_um_before,
         c.locked_rmse_um_after,
@@ -88,7 +88,7 @@ def _told(c: Candidate) -> tuple[float | None, ...]:
     )
 
 
-def _alike(one: float | None, other: float | None) -> bool:
+def _figures_agree(one: float | None, other: float | None) -> bool:
     if one is None or other is None:
         return one is other
     return isclose(one, other, rel_tol=ALIKE)

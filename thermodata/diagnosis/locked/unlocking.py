@@ -59,13 +59,13 @@ def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: 
     def opened(refused: frozenset[str] = frozenset()) -> tuple[Investigation, Fits, Judgement]:
         fits, found = fits_of(locked), asks(locked, faults, refused)
         asked = dict.fromkeys(found.looked_for)
-        judgement = _opened(found, fits, locked, asked)
+        judgement = _judgement_unlocked(found, fits, locked, asked)
         if asked:
             looks.append(Look(tuple(locked), tuple(asked)))
         return found, fits, judgement
 
     found, fits, judgement = opened()
-    turned = _turned(judgement, found, fits, locked)
+    turned = _turned_tests(judgement, found, fits, locked)
     if turned:
         locked = [t for t in locked if t.key not in turned]
         faults = as_artefacts(turned, found.problem.response)
@@ -81,7 +81,9 @@ def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: 
     return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looks))
 
 
-def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]) -> Judgement:
+def _judgement_unlocked(
+    found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]
+) -> Judgement:
     """Where something is claimed or likely. looked_for: takes the ids of what the lock was opened for."""
     judgement, unit = found.on_open, found.problem.unit
     if not judgement.claims and not (locked and judgement.likely):
@@ -131,7 +133,7 @@ def spoilt(fits: Fits, some: Sequence[Judged], place: int, floor: float) -> Fore
     return each[place] if any(one is not None and one.spoils(floor) for one in each) else together
 
 
-def _turned(
+def _turned_tests(
     judgement: Judgement, found: Investigation, fits: Fits, locked: Sequence[TestData]
 ) -> dict[tuple[str, str], float]:
     """The locked tests that do not bear out what the open ones claim because a probe is turned in them."""
