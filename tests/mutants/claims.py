@@ -707,7 +707,7 @@ MUTANTS = [
     ),
     products("discrepancy.py", "self.logdet += 2 * float(np.log(sizes).sum())", "pass", "free offsets are for nothing"),
     products("directions.py", " - np.log(precision).sum()", "", "known effects are for nothing"),
-    products("directions.py", " + _left(self._problem)[1]", "", "searched noise: free offsets are for nothing"),
+    products("directions.py", " + _bases_left(self._problem)[1]", "", "searched noise: free offsets are for nothing"),
     products("directions.py", " + noise.white**2", "", "searched noise: no white noise"),
     products("known.py", "return before + after\n", "return parts + before + after\n", "the left-out test is seen"),
     products(

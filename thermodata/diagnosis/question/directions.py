@@ -45,13 +45,13 @@ class Weighted:
 
     def products(self, noise: Noise) -> Products:
         """Over all tests, offsets integrated out."""
-        turned, size = self._at(noise.tau_s)
+        turned, size = self._columns_along(noise.tau_s)
         variance = noise.slow**2 * size + noise.white**2
         total = turned.T @ (turned / variance[:, None])
-        logdet = float(np.log(variance).sum()) + _left(self._problem)[1]
+        logdet = float(np.log(variance).sum()) + _bases_left(self._problem)[1]
         return total[:-1, :-1], total[:-1, -1], float(total[-1, -1]), logdet, len(size)
 
-    def _at(self, tau_s: float) -> tuple[Float2D, Float1D]:
+    def _columns_along(self, tau_s: float) -> tuple[Float2D, Float1D]:
         """Columns along the directions of a memory, and the size of the slow noise there."""
         if tau_s not in self._turned:
             found = directions(self._problem, tau_s)
@@ -68,7 +68,7 @@ def directions(problem: Problem, tau_s: float) -> Directions:
         # tests of the same samples and offsets, such as all of one plan, have the same
         made: dict[tuple[bytes, bytes], tuple[Float2D, Float1D]] = {}
         found = []
-        for i, (block, free) in enumerate(zip(problem.blocks, _left(problem)[0], strict=True)):
+        for i, (block, free) in enumerate(zip(problem.blocks, _bases_left(problem)[0], strict=True)):
             samples = block.t_s.tobytes(), free.tobytes()
             if samples not in made:
                 correlation = np.exp(-distances(problem, i) / tau_s)
@@ -80,7 +80,7 @@ def directions(problem: Problem, tau_s: float) -> Directions:
     return directions
 
 
-def _left(problem: Problem) -> tuple[list[Float2D], float]:
+def _bases_left(problem: Problem) -> tuple[list[Float2D], float]:
     """(a test each, an orthonormal basis of what its free columns leave, shape (m, m - columns), and the log
     determinant of their Gram matrices, of all tests)."""
     kept = problem.kept.setdefault("free", {})

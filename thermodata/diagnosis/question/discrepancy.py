@@ -82,7 +82,7 @@ class Whitened:
         lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
         ends = np.cumsum([columns.shape[1] for _, columns in lacking])
         made = {id(who): np.empty(columns.shape) for who, columns in lacking}
-        for first, last in self._few(int(ends[-1]) if lacking else 0):
+        for first, last in self._runs_of_tests(int(ends[-1]) if lacking else 0):
             rows = slice(self.parts[first].start, self.parts[last].stop)
             white = self._chain.part(first, last).halved(np.hstack([columns[rows] for _, columns in lacking]))
             together = self.projected(white, first)
@@ -117,7 +117,7 @@ class Whitened:
             begin += len(free)
         return white
 
-    def _few(self, columns: int) -> Iterator[tuple[int, int]]:
+    def _runs_of_tests(self, columns: int) -> Iterator[tuple[int, int]]:
         """The first and the last of tests that follow each other, of which so many columns stay near the processor."""
         first = 0
         for last in range(len(self.parts) if columns else 0):
@@ -214,7 +214,7 @@ def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: 
     best, step, asked = goal(x), 0.8, 1
     while step > 0.12 and asked < most:
         moved = False
-        for way in _ways(len(x)):
+        for way in _search_directions(len(x)):
             z = np.minimum(np.maximum(x + step * way, low), high)
             if (z == x).all():
                 continue
@@ -226,7 +226,7 @@ def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: 
     return x
 
 
-def _ways(count: int) -> Sequence[Float1D]:
+def _search_directions(count: int) -> Sequence[Float1D]:
     """Along each axis, and along size and memory of the slow noise together: short records know their ratio only."""
     axes = [sign * axis for axis in np.eye(count) for sign in (1.0, -1.0)]
     both = np.zeros(count)

@@ -152,7 +152,7 @@ def known(problem: Problem, noise: Noise) -> Known:
         products[:, :-1, :-1],
         products[:, :-1, -1],
         products[:, -1, -1],
-        _precision(_gains(problem), problem.blocks[0].slack.shape[1], noise.share),
+        _precision(_gain_deviations(problem), problem.blocks[0].slack.shape[1], noise.share),
     )
 
 
@@ -169,14 +169,14 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
     thin = _thinned(problem, every) if every > 1 else problem
     first, bounds = bounds_of(problem)
     tests = Weighted(thin)
-    gains, slack = _gains(thin), thin.blocks[0].slack.shape[1]
+    gains, slack = _gain_deviations(thin), thin.blocks[0].slack.shape[1]
     made: dict[bytes, Products] = {}
 
     def products(x: Float1D) -> Products:
         # the price of other time constants changes no covariance
         key = np.round(x[:3], 9).tobytes()
         if key not in made:
-            made[key] = tests.products(_of(x))
+            made[key] = tests.products(_noise_at(x))
         return made[key]
 
     def evidence(x: Float1D, part: Int1D) -> float:
@@ -185,12 +185,12 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
         return log_evidence(gram[part[:, None], part], cross[part], energy, logdet, rows, precision)
 
     begin = np.log(astuple(first if start is None else start))
-    found = [_of(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
+    found = [_noise_at(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
     least = LEAST_WHITE * left_over(problem)
     return [replace(noise, white=max(noise.white, least)) for noise in found]
 
 
-def _of(x: Float1D) -> Noise:
+def _noise_at(x: Float1D) -> Noise:
     return Noise(*(float(v) for v in np.exp(x)))
 
 
@@ -214,7 +214,7 @@ def solved(factor: Float2D, right: Float2D) -> Float2D:
     return halved(factor, halved(factor, right), transposed=True)
 
 
-def _gains(problem: Problem) -> Float1D:
+def _gain_deviations(problem: Problem) -> Float1D:
     """Prior standard deviation of each known gain, as a multiple of its fit."""
     large = rms(problem.response_blocks)
     own = np.sqrt(np.mean(np.vstack([b.base for b in problem.blocks]) ** 2, axis=0))

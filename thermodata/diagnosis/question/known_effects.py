@@ -70,7 +70,7 @@ def otherwise(fitted: FittedResponse, test: TestData) -> Float2D:
     A machine is distributed: the same heat also acts faster and slower than the fitted lag. That is no missing effect,
     so the known effects may do it, at a price (see `discrepancy.Noise.share`).
     """
-    columns = [c for term in fitted.terms for c in _bank(term, test)]
+    columns = [c for term in fitted.terms for c in _bank_of_lags(term, test)]
     return np.column_stack(columns) if columns else np.zeros((len(test.t_s), 0))
 
 
@@ -103,7 +103,7 @@ def from_other_zero(fitted: FittedResponse, term: int, channel: str, test: TestD
     return np.asarray(known.bound.while_acting(test, columns) @ gains)
 
 
-def _bank(term: FittedTerm, test: TestData) -> Iterator[Float1D]:
+def _bank_of_lags(term: FittedTerm, test: TestData) -> Iterator[Float1D]:
     values = term.values(test)
     for param in term.effect.params:
         if param.unit not in TIME_UNITS:

@@ -37,7 +37,7 @@ def each_once(
     found: list[RepeatedSamples] = []
     for number, one in enumerate(tests):
         found += [a for other in tests[:number] if (a := repeated_in(one, other, channel, data.step_s)) is not None]
-    changed = {t.key: _without(t, channel(t), [a.samples for a in found if a.test is t]) for t in tests}
+    changed = {t.key: _without_samples(t, channel(t), [a.samples for a in found if a.test is t]) for t in tests}
     gone = {key for key, test in changed.items() if test is not None and not test.sampled(channel(test)).any()}
     told = [replace(a, whole=a.test.key in gone) for a in found]
     kept = [changed[t.key] or t for t in tests if t.key not in gone or not any(a.test is t for a in found)]
@@ -72,12 +72,12 @@ def same_recording(one: TestData, other: TestData, response: str) -> bool:
 
 def as_artefacts(found: Sequence[RepeatedSamples]) -> list[Artefact]:
     return [
-        Artefact(kind="copy", campaign=a.test.campaign, test=a.test.test, at_s=None, size_um=None, why=_why(a))
+        Artefact(kind="copy", campaign=a.test.campaign, test=a.test.test, at_s=None, size_um=None, why=_why_left_out(a))
         for a in found
     ]
 
 
-def _why(found: RepeatedSamples) -> str:
+def _why_left_out(found: RepeatedSamples) -> str:
     one, other = found.test, found.other
     name = other.test if other.campaign == one.campaign else "/".join(other.key)
     times = one.t_s[found.samples]
@@ -90,7 +90,7 @@ def _why(found: RepeatedSamples) -> str:
     )
 
 
-def _without(test: TestData, channel: str, samples: Sequence[Bool1D]) -> TestData | None:
+def _without_samples(test: TestData, channel: str, samples: Sequence[Bool1D]) -> TestData | None:
     """None where nothing of it stands in another."""
     if not samples:
         return None

@@ -38,7 +38,7 @@ class Present:
 
 def present(fitted: FittedResponse) -> list[Present]:
     """Of each effect of a fitted response, and of the models inside of it."""
-    return [_present(term) for term in _terms(fitted)]
+    return [_present(term) for term in _terms_of_every_model(fitted)]
 
 
 def modes(effect: Effect) -> int:
@@ -66,10 +66,10 @@ def is_plain(effect: str, library: Mapping[str, Effect]) -> bool:
     return library.get(effect) is None or library[effect].family == GENERIC
 
 
-def _terms(fitted: FittedResponse) -> Iterator[FittedTerm]:
+def _terms_of_every_model(fitted: FittedResponse) -> Iterator[FittedTerm]:
     for term in fitted.terms:
         if isinstance(term.effect, ModelOutput):
-            yield from _terms(term.effect.response)
+            yield from _terms_of_every_model(term.effect.response)
         else:
             yield term
 

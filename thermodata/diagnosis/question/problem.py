@@ -131,7 +131,7 @@ class Problem:
         for block in self.blocks:
             times = at.get(block.test.key, [])
             if times and parted_s:
-                block = block.without(_nearest(block.t_s, times) < parted_s)
+                block = block.without(_distances_to_nearest(block.t_s, times) < parted_s)
             segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
             both = np.column_stack([block.response, block.residual, block.base, block.slack])
             free, k = freed(both, block.test, block.t_s, segment), 2 + block.base.shape[1]
@@ -148,7 +148,7 @@ class Problem:
         return replace(self, blocks=tuple(blocks), kept={})
 
 
-def _nearest(t_s: Float1D, times: Sequence[float]) -> Float1D:
+def _distances_to_nearest(t_s: Float1D, times: Sequence[float]) -> Float1D:
     """How far the nearest of some times is, shape (m,)."""
     return np.asarray(np.abs(t_s[:, None] - np.asarray(times)[None, :]).min(axis=1))
 
@@ -230,7 +230,7 @@ def build_problem(explained: Explained, tests: Sequence[TestData], step_s: float
         noises.append(_short_noise(left[mask]))
         both = np.nan_to_num(np.column_stack([explained.measured(test), left]))
         base, slack = explained.base(test), explained.slack(test)
-        for keep in _parts(mask, len(usable)):
+        for keep in _parts_in_time(mask, len(usable)):
             block = _empty_block(test, keep, every)
             y = block.compress(both)
             filled = block.with_known(block.compress(base), block.compress(slack))
@@ -249,7 +249,7 @@ def _empty_block(test: TestData, keep: Bool1D, every: int) -> Block:
     return Block(test, t_s, empty, empty, none, none, np.zeros(size, dtype=np.int64), group, size)
 
 
-def _parts(mask: Bool1D, tests: int) -> list[Bool1D]:
+def _parts_in_time(mask: Bool1D, tests: int) -> list[Bool1D]:
     """Where tests are few, parts of one in time stand for tests: each with an offset of its own, left out in turn."""
     count = min(-(-FOLDS_WANTED // tests), int(mask.sum()) // PART_ROWS) if tests < FEW_TESTS else 1
     if count < 2:

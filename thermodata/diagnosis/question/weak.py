@@ -76,7 +76,7 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
     step = float(test.t_s[1] - test.t_s[0])
     width = max(2, round(min(WINDOW_S, (end - begin) * step / WINDOWS_A_TEST) / step))
     windows: list[_Window] = []
-    for start, stop in _cut(begin, end, width):
+    for start, stop in _cut_into_windows(begin, end, width):
         m = mask[start:stop]
         n = int(m.sum())
         sse = float(np.sum(residual[start:stop][m] ** 2))
@@ -90,7 +90,7 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
     return [w for w in windows if w.n > 1]
 
 
-def _cut(begin: int, end: int, width: int) -> list[tuple[int, int]]:
+def _cut_into_windows(begin: int, end: int, width: int) -> list[tuple[int, int]]:
     """Rows begin:end in windows of `width`, the last one up to half longer or shorter."""
     starts = list(range(begin, end, width))
     if len(starts) > 1 and 2 * (end - starts[-1]) < width:
@@ -121,7 +121,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             low, high = _levels(np.abs(part), largest)
             of_spindle = info.quantity == "rotational_speed" and (info.at is None or is_spindle(info.at))
             if of_spindle and (high < _AT_REST_RPM or high <= 0.01 * largest):
-                rests.append(_when(np.abs(part) <= max(_AT_REST_RPM, 0.01 * largest), t_s))
+                rests.append(_when_it_stood(np.abs(part) <= max(_AT_REST_RPM, 0.01 * largest), t_s))
                 continue
             if (
                 info.quantity in ("current", "voltage")
@@ -131,7 +131,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             if high > 0.01 * largest:
                 turning = turning or of_spindle
                 span = _figure(high) if low == high else f"{_figure(low)} to {_figure(high)}"
-                when = _when(_stood(np.abs(part), high, largest), t_s) if low == high else ""
+                when = _when_it_stood(_where_level_stood(np.abs(part), high, largest), t_s) if low == high else ""
                 words.append(f"{name} {span} {info.unit}{when}")
         elif info.quantity == "state" and (share := float(part.mean())) > _HARDLY:
             words.append(f"{name} on" if share > 1 - _HARDLY else f"{name} on {100 * share:.0f} % of the time")
@@ -157,12 +157,12 @@ def _levels(sizes: Float1D, largest: float) -> tuple[float, float]:
     return low if low > 0.01 * largest else 0.0, high
 
 
-def _stood(sizes: Float1D, level: float, largest: float) -> Bool1D:
+def _where_level_stood(sizes: Float1D, level: float, largest: float) -> Bool1D:
     """Where a level stood. largest: of the whole test."""
     return np.asarray(np.abs(sizes - level) <= max(_ALIKE * float(sizes.max()), 0.01 * largest))
 
 
-def _when(stood: Bool1D, t_s: Float1D) -> str:
+def _when_it_stood(stood: Bool1D, t_s: Float1D) -> str:
     """' from 12 min on', of a level that stood for most of a window and not for all of it; '' where it stood for all.
     t_s: from the test's start."""
     share = float(stood.mean())
@@ -171,13 +171,13 @@ def _when(stood: Bool1D, t_s: Float1D) -> str:
     first, last = int(np.argmax(stood)), len(stood) - 1 - int(np.argmax(stood[::-1]))
     at_once = float(stood[first : last + 1].mean()) >= 1 - _HARDLY
     if at_once and last == len(stood) - 1:
-        return f" from {_clock(float(t_s[first]))} on"
+        return f" from {_time_in_words(float(t_s[first]))} on"
     if at_once and first == 0:
-        return f" until {_clock(float(t_s[last]))}"
+        return f" until {_time_in_words(float(t_s[last]))}"
     return f" for {100 * share:.0f} % of the time"
 
 
-def _clock(seconds: float) -> str:
+def _time_in_words(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h" if seconds >= 5400 else f"{seconds / 60:.0f} min"
 
 
