@@ -808,7 +808,10 @@ MUTANTS = [
     diagnosis("turned.py", "(np.sum(signs < 0) + together) >= len(signs)", "1 >= len(signs)", "most tests are turned"),
     diagnosis("turned.py", "(1, 2) if", "(1,) if", "two that are turned hide each other"),
     diagnosis(
-        "turned.py", "_foretold(problem, lags)\n", "_foretold(problem, [])\n", "a missing effect hides a turned probe"
+        "turned.py",
+        "_foretold_by_ridges(problem, lags)\n",
+        "_foretold_by_ridges(problem, [])\n",
+        "a missing effect hides a turned probe",
     ),
     Mutant(
         "thermodata/diagnosis/verdict/investigate.py",

@@ -57,15 +57,17 @@ def clock_offsets(
         return np.column_stack([base(test), otherwise(test)])
 
     artefacts = []
-    now = _error(problem, base, {})
+    now = _squared_error(problem, base, {})
     energy = float(sum(b.response @ b.response for b in problem.blocks))
     for source in sorted(set(sources.values())):
         names = {c for c, s in sources.items() if s == source}
-        errors = {d: _error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
+        errors = {d: _squared_error(problem, base, dict.fromkeys(names, d)) for d in SHIFTS_S}
         drop = WARM_CLOCK_DROP if names <= {*warm} else CLOCK_DROP
         best = shift_that_explains(now, errors, energy, drop)
         if best is not None and (
-            best < 0 or _error(problem, freed, dict.fromkeys(names, best)) < (1 - drop) * _error(problem, freed, {})
+            best < 0
+            or _squared_error(problem, freed, dict.fromkeys(names, best))
+            < (1 - drop) * _squared_error(problem, freed, {})
         ):
             rms = [float(np.sqrt(e / max(problem.rows, 1))) for e in (now, errors[best])]
             artefacts.append(
@@ -96,7 +98,7 @@ def shift_that_explains(now: float, errors: Mapping[float, float], energy: float
     )
 
 
-def _error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
+def _squared_error(problem: Problem, base: Callable[[TestData], Float2D], shift_s: Mapping[str, float]) -> float:
     columns, responses = [], []
     for block in problem.blocks:
         columns.append(block.compress(base(moved(block.test, shift_s)) if shift_s else base(block.test)))
@@ -118,7 +120,7 @@ def wrong_gains(problem: Problem) -> list[Artefact]:
         return []
     tests = _Tests(blocks)
     found: dict[int, Artefact] = {}
-    while (worst := _worst(tests, problem, set(found))) is not None:
+    while (worst := _worst_factor(tests, problem, set(found))) is not None:
         i, factor, squared = worst
         found[i] = _wrong_gain(blocks[i], factor, squared)
         tests.mend(i, factor)
@@ -176,7 +178,7 @@ def fit_percent(left: float, energy: float) -> float:
     return (1 - float(np.sqrt(max(left, 0.0) / energy))) * 100 if energy > 0 else 0.0
 
 
-def _worst(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, float, float] | None:
+def _worst_factor(tests: _Tests, problem: Problem, mended: set[int]) -> tuple[int, float, float] | None:
     """(test, its factor, its squared error) of the wrong factor that explains most, where one is wrong."""
     as_it_is, _ = tests.error()
     best, least = None, np.inf
@@ -225,8 +227,8 @@ def faulty_sensors(data: Dataset, response: str, driven_by: Collection[str] = ()
             at_s=None,
             size_um=None,
             why=f"'{name}' is flagged '{info.faulty}', so it {_drives_no(name, data)}"
-            f"{_lost(name, test) if name in driven_by else ''}: see thermodata quality, and overrule the flag in the "
-            "campaign file where the reading is sound",
+            f"{_said_of_lost_test(name, test) if name in driven_by else ''}: see thermodata quality, and overrule the "
+            "flag in the campaign file where the reading is sound",
         )
         for test in data.tests
         for name, info in test.channels.items()
@@ -234,7 +236,7 @@ def faulty_sensors(data: Dataset, response: str, driven_by: Collection[str] = ()
     ]
 
 
-def _lost(name: str, test: TestData) -> str:
+def _said_of_lost_test(name: str, test: TestData) -> str:
     if name in test.values and np.isfinite(test.values[name]).any():
         return ""
     return ", and the model, which reads it, has lost this test"

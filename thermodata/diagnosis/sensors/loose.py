@@ -184,7 +184,7 @@ class _Sums:
             return None
         size = size[moves]
         gram, cross = gram[:, moves][:, :, moves] / size[:, None] / size, cross[:, moves] / size
-        at, factor = _best(gram, cross)
+        at, factor = _best_break(gram, cross)
         plain, *_ = left_out(gram, cross, energy, np.ones(len(used)))
         scale = np.where(np.arange(len(used)) < at, 1.0, factor)
         left, along, power = left_out(gram, cross, energy, scale)
@@ -211,7 +211,7 @@ def telling(foretold: Float1D) -> Bool1D:
     return np.asarray(foretold >= max(LEAST_K, TELLS * float(foretold.max())))
 
 
-def _best(gram: FloatND, cross: Float2D) -> tuple[int, float]:
+def _best_break(gram: FloatND, cross: Float2D) -> tuple[int, float]:
     """(first test, factor) with which the same gains foretell most of all tests."""
     best, most = (1, 1.0), -np.inf
     for factor in FACTORS:
@@ -243,17 +243,17 @@ def _columns(
     drives: commands, and the power of each.
     """
     every = max(1, round(EVERY_S / step_s))
-    commands = [lag(_held(test, n) ** power, tau, step_s) for n, power in drives for tau in LAGS_S]
-    courses = [_even(test, n) for n in names]
-    around = [x for n in air if (x := _even(test, n)) is not None]
+    commands = [lag(_command_held(test, n) ** power, tau, step_s) for n, power in drives for tau in LAGS_S]
+    courses = [_temperature_evened(test, n) for n in names]
+    around = [x for n in air if (x := _temperature_evened(test, n)) is not None]
     nothing = np.zeros(len(test.t_s))
     known = [x for a in around for x in (a, lag(a - a[0], AIR_LAG_S, step_s))]
-    columns = _means([*commands, *(nothing if x is None else x for x in courses)], every, len(test.t_s))
-    (own,) = beside_air([columns], _means(known, every, len(test.t_s)))
+    columns = _row_means([*commands, *(nothing if x is None else x for x in courses)], every, len(test.t_s))
+    (own,) = beside_air([columns], _row_means(known, every, len(test.t_s)))
     return own, np.array([x is not None for x in courses])
 
 
-def _held(test: TestData, name: str) -> Float1D:
+def _command_held(test: TestData, name: str) -> Float1D:
     """The size of a command, each value held until the next; 0 where it was not logged."""
     values = test.values.get(name)
     known = np.flatnonzero(np.isfinite(values)) if values is not None else np.empty(0, np.int64)
@@ -263,7 +263,7 @@ def _held(test: TestData, name: str) -> Float1D:
     return np.asarray(np.abs(values[known[np.clip(last, 0, None)]]))
 
 
-def _even(test: TestData, name: str) -> Float1D | None:
+def _temperature_evened(test: TestData, name: str) -> Float1D | None:
     """Drawn straight over holes; None where too little was measured, or the sensor is judged faulty."""
     info = test.channels.get(name)
     if name not in test.values or (info is not None and info.faulty is not None):
@@ -274,7 +274,7 @@ def _even(test: TestData, name: str) -> Float1D | None:
     return np.asarray(np.interp(test.t_s, test.t_s[seen], test.values[name][seen]))
 
 
-def _means(columns: Sequence[Float1D], every: int, rows: int) -> Float2D:
+def _row_means(columns: Sequence[Float1D], every: int, rows: int) -> Float2D:
     whole = rows // every
     table = np.column_stack(columns) if columns else np.zeros((rows, 0))
     return np.asarray(table[: whole * every].reshape(whole, every, table.shape[1]).mean(axis=1))

@@ -49,17 +49,19 @@ def turned(problem: Problem, lags: Sequence[CandidateEffect]) -> list[Artefact]:
     blocks = problem.blocks
     if len({b.test.key for b in blocks}) < LEAST_TESTS or not any(b.response.any() for b in blocks):
         return []
-    said = _foretold(problem, lags)
+    said = _foretold_by_ridges(problem, lags)
     signs, left = np.ones(len(blocks)), said[0].energy
-    now = _least(said, signs)
+    now = _least_errors(said, signs)
     size = np.sqrt(left / np.array([len(b.response) for b in blocks]))
     moves = np.flatnonzero(size >= MOVES * np.sqrt(left.sum() / sum(len(b.response) for b in blocks)))
-    while (found := _plainest(said, signs, now, moves)) is not None:
+    while (found := _plainest_turned(said, signs, now, moves)) is not None:
         signs, now = found
     return [_artefact(problem, blocks[i], now[i], _fit(now[i], left[i])) for i in np.flatnonzero(signs < 0)]
 
 
-def _plainest(said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: Int1D) -> tuple[Float1D, Float1D] | None:
+def _plainest_turned(
+    said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: Int1D
+) -> tuple[Float1D, Float1D] | None:
     """(signs, squared errors) with the test turned that is plainly so, or two of them: before both are turned they hide
     each other. None where none is, or where it would not be fewer than half. moves: the tests that may be."""
     upright = [i for i in moves.tolist() if signs[i] > 0]
@@ -70,7 +72,7 @@ def _plainest(said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: In
         for some in combinations(upright, together):
             tried = signs.copy()
             tried[list(some)] = -1.0
-            errors = _least(said, tried)
+            errors = _least_errors(said, tried)
             fit = min(_fit(errors[i], said[0].energy[i]) for i in some)
             if is_turned(now.sum(), errors.sum(), fit):
                 found.append((tried, errors))
@@ -99,7 +101,7 @@ class _Foretold:
         return np.asarray(np.maximum(self.energy - 2 * signs * (self.along @ signs) + said, 0.0))
 
 
-def _foretold(problem: Problem, lags: Sequence[CandidateEffect]) -> list[_Foretold]:
+def _foretold_by_ridges(problem: Problem, lags: Sequence[CandidateEffect]) -> list[_Foretold]:
     """By each of the ridges."""
     columns, is_lag = _columns(problem, lags)
     gram = np.stack([c.T @ c for c in columns])
@@ -135,7 +137,7 @@ def _columns(problem: Problem, lags: Sequence[CandidateEffect]) -> tuple[list[Fl
     return [w[:, acts] / size[acts] for w in whole], (np.arange(len(size)) >= own)[acts]
 
 
-def _least(said: Sequence[_Foretold], signs: Float1D) -> Float1D:
+def _least_errors(said: Sequence[_Foretold], signs: Float1D) -> Float1D:
     """The errors by whichever way foretells all tests best."""
     return min((s.errors(signs) for s in said), key=lambda e: float(e.sum()))
 
