@@ -904,7 +904,7 @@ MUTANTS = [
     diagnosis(
         "changes.py",
         "nowhere = np.zeros(len(value), dtype=np.bool_)",
-        "nowhere = _kept(_held, block, name)[1]",
+        "nowhere = _kept_or_made(_value_held, block, name)[1]",
         "a warm room excuses every slip that nobody saw",
     ),
     diagnosis("changes.py", "max(SUDDEN * usual, LEAST_K)", "np.inf", "a gate on air that a day warms is a slip"),
@@ -963,8 +963,8 @@ MUTANTS = [
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
     diagnosis(
         "changes.py",
-        "return suddenly(_kept(_held, block, name)[0], block.t_s, BESIDE + 2)",
-        "return np.abs(np.nan_to_num(over_three(_kept(_held, block, name)[0], block.t_s)))",
+        "return suddenly(_kept_or_made(_value_held, block, name)[0], block.t_s, BESIDE + 2)",
+        "return np.abs(np.nan_to_num(over_three(_kept_or_made(_value_held, block, name)[0], block.t_s)))",
         "a motor that cools excuses a slip",
     ),
     diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),

@@ -121,7 +121,7 @@ def _steps_in(block: Block, problem: Problem, tread: float, commands: BlockComma
             stays = np.abs(size) >= STAYS * suddenly(r, t, side)
             i, alone = most_sudden(r, t, np.array(large) & stays, side)
             if alone < ALONE and through:
-                i, alone = _uncommanded(r, t, side, commands, least_step(problem.noise, tread))
+                i, alone = _most_sudden_uncommanded(r, t, side, commands, least_step(problem.noise, tread))
                 bare = True
             if alone < ALONE or not through or (bare and looked[i]):
                 break
@@ -146,7 +146,9 @@ def _steps_in(block: Block, problem: Problem, tread: float, commands: BlockComma
     return steps
 
 
-def _uncommanded(r: Float1D, t: Float1D, side: int, commands: BlockCommands, least: float) -> tuple[int, float]:
+def _most_sudden_uncommanded(
+    r: Float1D, t: Float1D, side: int, commands: BlockCommands, least: float
+) -> tuple[int, float]:
     """(sample before which r changes most suddenly of what no command explains, how many times as suddenly as of that
     anything else does, ten at most); 0 times where all that is as large as `least` is explained.
 
@@ -181,7 +183,7 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     """
     m = len(r)
     near = max(2, side // 3)
-    left, right = _lines(r, t, side)
+    left, right = _ends_of_lines(r, t, side)
     size = np.zeros(m)
     inner = np.arange(side, m - side + 1)
     total = np.concatenate([[0.0], np.cumsum(r)])
@@ -205,7 +207,7 @@ def is_at_once(size: float, in_residual: float, in_response: float) -> bool:
     return in_residual >= WITHIN * abs(size) and SEEN * abs(size) <= in_response <= abs(size) / SEEN
 
 
-def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
+def _ends_of_lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     """Straight lines through each run of `side` samples: (value one sample after its end, value at its start)."""
     from numpy.lib.stride_tricks import sliding_window_view
 

@@ -47,19 +47,19 @@ class Course:
 def courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[Course | None]:
     """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
     temperature: it changes where that is sudden, and does nothing while nobody logs it."""
-    held = [_kept(_held, b, name) for b in blocks]
+    held = [_kept_or_made(_value_held, b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
     least = tuple(MOVED * float(np.ptp(every**p)) for p in POWERS)
     logged = [b if len(own) else None for b, (own, _) in zip(blocks, held, strict=True)]
     if told:
-        return [None if b is None else _kept(_of_command, b, name, least) for b in logged]
+        return [None if b is None else _kept_or_made(_of_command, b, name, least) for b in logged]
     # a motor that cools once its axis rests is no other body
-    sudden = [_kept(_sudden, b, name) for b in logged if b is not None]
+    sudden = [_kept_or_made(_suddenness, b, name) for b in logged if b is not None]
     usual = rms([*sudden, np.zeros(1)])
     enough = min(least[0], max(SUDDEN * usual, LEAST_K))
-    return [None if b is None else _kept(_of_temperature, b, name, enough) for b in logged]
+    return [None if b is None else _kept_or_made(_of_temperature, b, name, enough) for b in logged]
 
 
 def warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
@@ -71,16 +71,16 @@ def warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
 def moves(blocks: Sequence[Block], name: str, temperatures: Sequence[str]) -> list[list[Course | None]]:
     """Of the position of an axis: what it does by how far it moves, and by that times how warm it is, by each of its
     temperatures; None for each block that lacks one."""
-    places = [_kept(_held, b, name)[0] for b in blocks]
+    places = [_kept_or_made(_value_held, b, name)[0] for b in blocks]
     span = float(np.ptp(np.concatenate(places))) if any(map(len, places)) else 0.0
     least = max(MOVED * span, LEAST_MM)
-    each = [_kept(_of_axis, b, name, tuple(temperatures), least) for b in blocks]
+    each = [_kept_or_made(_of_axis, b, name, tuple(temperatures), least) for b in blocks]
     return [list(of_blocks) for of_blocks in zip(*each, strict=True)]
 
 
 def _of_axis(block: Block, name: str, temperatures: tuple[str, ...], least: float) -> list[Course | None]:
     """Of one block, by how far it moves and by each of its temperatures. least: what makes it a move [mm]."""
-    place, _ = _kept(_held, block, name)
+    place, _ = _kept_or_made(_value_held, block, name)
     far, unknown = over_three(place, block.t_s), np.zeros(len(place), dtype=np.bool_)
     rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
     found: list[Course | None] = [Course({1: far}, {1: rows}, unknown) if len(place) else None]
@@ -101,7 +101,7 @@ def _from_place_to_place(place: Float1D, far: Float1D, least: float, many: int) 
 
 def _rise(block: Block, name: str) -> Float1D:
     """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
-    value, _ = _kept(_held, block, name)
+    value, _ = _kept_or_made(_value_held, block, name)
     if not len(value):
         return value
     logged = np.asarray(block.test.values[name], dtype=np.float64)
@@ -112,7 +112,7 @@ def _step_s(t_s: Float1D) -> float:
     return float(np.median(np.diff(t_s)))
 
 
-def _kept(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
+def _kept_or_made(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
     """What is made of a test at the samples of a block, which is the same in each problem that has these."""
     key = make.__name__, block.t_s.tobytes(), what
     if key not in block.test.kept:
@@ -121,7 +121,7 @@ def _kept(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
     return found
 
 
-def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
+def _value_held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
     test = block.test
     known = np.flatnonzero(np.isfinite(test.values[name])) if name in test.values else np.empty(0, np.int64)
@@ -134,7 +134,7 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
 
 def _of_command(block: Block, name: str, least: tuple[float, ...]) -> Course:
     """least: what makes it a change, by `POWERS`."""
-    value, old = _kept(_held, block, name)
+    value, old = _kept_or_made(_value_held, block, name)
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
     rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > own) for p, own in zip(POWERS, least, strict=True)}
     # a hole begins after the last logged sample and ends before the next one
@@ -144,13 +144,15 @@ def _of_command(block: Block, name: str, least: tuple[float, ...]) -> Course:
     return Course({**change, EITHER_WAY: np.abs(change[1])}, {**rows, EITHER_WAY: rows[1]}, hole)
 
 
-def _sudden(block: Block, name: str) -> Float1D:
+def _suddenness(block: Block, name: str) -> Float1D:
     """What a temperature changes by beyond the slopes beside it, shape (m,)."""
-    return suddenly(_kept(_held, block, name)[0], block.t_s, BESIDE + 2)
+    return suddenly(_kept_or_made(_value_held, block, name)[0], block.t_s, BESIDE + 2)
 
 
 def _of_temperature(block: Block, name: str, least: float) -> Course:
     """A body expands by its temperature, not by the square, and one way."""
-    value, _ = _kept(_held, block, name)
+    value, _ = _kept_or_made(_value_held, block, name)
     nowhere = np.zeros(len(value), dtype=np.bool_)
-    return Course({1: over_three(value, block.t_s)}, {1: np.flatnonzero(_kept(_sudden, block, name) > least)}, nowhere)
+    return Course(
+        {1: over_three(value, block.t_s)}, {1: np.flatnonzero(_kept_or_made(_suddenness, block, name) > least)}, nowhere
+    )

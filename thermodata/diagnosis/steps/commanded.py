@@ -89,7 +89,7 @@ class Commands:
         most = 0.0
         for command in (c for c in self._commands if c.name == name):
             for way in {way for course in command.courses if course for way in course.rows}:
-                x, y = self._elsewhere(command.courses, self._jumps, -1, 0, 0, way)
+                x, y = self._changes_elsewhere(command.courses, self._jumps, -1, 0, 0, way)
                 if len(x):
                     slope, alike = through_zero(x, y)
                     most = max(most, abs(slope) * float(np.abs(x).max()) if alike >= ALIKE else 0.0)
@@ -102,7 +102,7 @@ class Commands:
         for way, rows in own.rows.items():
             near = rows[np.abs(rows - i) <= int(COMMAND_S / self._step_s) + 1]
             for row in near.tolist():
-                x, y = self._elsewhere(command, self._jumps, block, i, i - row, way)
+                x, y = self._changes_elsewhere(command, self._jumps, block, i, i - row, way)
                 change = float(own.change[way][row])
                 # moves of a cold axis say nothing of a warm one's
                 if way == WARM and not np.any(np.abs(x) >= AS_WARM * abs(change)):
@@ -111,28 +111,28 @@ class Commands:
                     return True
         # what a command did while nobody logged it, neither the model knows nor we: at most its largest change; what
         # it does whichever way it goes cannot stay, or the machine would walk off
-        return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
+        return bool(own.hole[i]) and any(self._might_explain(command, block, i, power) for power in POWERS)
 
-    def _might(self, command: Sequence[Course | None], block: int, i: int, power: int) -> bool:
-        x, y = self._elsewhere(command, self._moves, block, i, 0, power)
+    def _might_explain(self, command: Sequence[Course | None], block: int, i: int, power: int) -> bool:
+        x, y = self._changes_elsewhere(command, self._moves, block, i, 0, power)
         if not len(x):
             return False
         slope, alike = through_zero(x, y)
         most = abs(slope) * float(np.abs(x).max())
         return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[self._starts[block] + i]))
 
-    def _elsewhere(
+    def _changes_elsewhere(
         self, command: Sequence[Course | None], jumps: Float1D, block: int, i: int, lag: int, way: int
     ) -> tuple[Float1D, Float1D]:
         """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
         key = id(command), id(jumps), lag, way
         if key not in self._followed:
-            self._followed[key] = self._everywhere(command, jumps, lag, way)
+            self._followed[key] = self._changes_everywhere(command, jumps, lag, way)
         x, y, where, at = self._followed[key]
         far = (where != block) | (np.abs(at - i) > int(ELSEWHERE_S / self._step_s))
         return x[far], y[far]
 
-    def _everywhere(
+    def _changes_everywhere(
         self, command: Sequence[Course | None], jumps: Float1D, lag: int, way: int
     ) -> tuple[Float1D, Float1D, Int1D, Int1D]:
         """All changes of a command, the jumps so many samples after each, and in which block and before which of its

@@ -32,7 +32,7 @@ def repeating(steps: Sequence[Step]) -> list[list[Step]]:
     back: play is passed through both ways. A list for each size, the most frequent first. And those, of any size, at
     each of which one axis starts, stops or changes, where these are more."""
     found: list[list[Step]] = []
-    while rest := _without(steps, found):
+    while rest := _steps_outside(steps, found):
         moved = [s for s in rest if any(n in s.beside for n in moved_by(rest))]
         best = _with_the_way_back(_most_alike(rest), rest)
         if len(best) < LEAST and not moved:
@@ -57,11 +57,11 @@ def _is_axis(test: TestData, name: str) -> bool:
 def _by_chance(some: Sequence[Step], steps: Sequence[Step], name: str) -> float:
     """That so many of the steps, anywhere in their tests, fall beside changes of an axis."""
     span = max(float(np.nanmax(s.test.values[name]) - np.nanmin(s.test.values[name])) for s in some)
-    shares = [float(_beside(s.test, name, MOVED * span).mean()) for s in some]
+    shares = [float(_is_near_change(s.test, name, MOVED * span).mean()) for s in some]
     return math.comb(len(steps), len(some)) * math.prod(shares)
 
 
-def _beside(test: TestData, name: str, least: float) -> Bool1D:
+def _is_near_change(test: TestData, name: str, least: float) -> Bool1D:
     """The samples that are near to a change."""
     known = np.isfinite(test.values[name])
     times, values = test.t_s[known], test.values[name][known]
@@ -72,7 +72,7 @@ def _beside(test: TestData, name: str, least: float) -> Bool1D:
 
 def single(steps: Sequence[Step]) -> list[Step]:
     """The others: slips."""
-    return _without(steps, repeating(steps))
+    return _steps_outside(steps, repeating(steps))
 
 
 def _with_the_way_back(best: Sequence[Step], rest: Sequence[Step]) -> list[Step]:
@@ -95,7 +95,7 @@ def _is_alike(size: float, other: float) -> bool:
     return abs(size - other) <= ALIKE * abs(other)
 
 
-def _without(steps: Sequence[Step], groups: Sequence[Sequence[Step]]) -> list[Step]:
+def _steps_outside(steps: Sequence[Step], groups: Sequence[Sequence[Step]]) -> list[Step]:
     return [s for s in steps if not any(s is a for group in groups for a in group)]
 
 
@@ -103,7 +103,7 @@ def as_artefacts(groups: Sequence[Sequence[Step]], unit: str) -> list[Artefact]:
     """One in each test in which they are, in the same words for one size. groups: of steps that repeat."""
     told: dict[tuple[str, str], list[str]] = {}
     for steps in groups:
-        why = _why(steps, unit)
+        why = _why_repeating(steps, unit)
         for key in dict.fromkeys(s.test.key for s in steps):
             told.setdefault(key, []).append(why)
     return [
@@ -112,7 +112,7 @@ def as_artefacts(groups: Sequence[Sequence[Step]], unit: str) -> list[Artefact]:
     ]
 
 
-def _why(steps: Sequence[Step], unit: str) -> str:
+def _why_repeating(steps: Sequence[Step], unit: str) -> str:
     up, down = ([s.size for s in steps if (s.size > 0) is way] for way in (True, False))
     ends = [[f"{end(some, key=abs):+.1f}" for end in (min, max)] for some in (up, down) if some]
     sizes = " and ".join(" to ".join(dict.fromkeys(both)) for both in ends)
@@ -120,7 +120,7 @@ def _why(steps: Sequence[Step], unit: str) -> str:
     if axes and all(any(n in s.beside for n in axes) for s in steps):
         changes = f"{' and '.join(axes)} {'changes' if len(axes) == 1 else 'change'}"
         return (
-            f"the displacement jumps {len(steps)} times, by {sizes} {unit} ({_where(steps)}), each time just as "
+            f"the displacement jumps {len(steps)} times, by {sizes} {unit} ({_at_hours(steps)}), each time just as "
             f"{changes}, and does not decay: jumps that come again and again as an axis starts or stops point to "
             "stick-slip or backlash of the machine, or to a body that moves with that axis and that nobody logs, "
             "whatever their size, for a probe slips at any time. Nothing was taken out for them"
@@ -128,14 +128,14 @@ def _why(steps: Sequence[Step], unit: str) -> str:
     by_clock = f"; {even}, as a programme has it" if (even := evenly(steps)) else ""
     ways, which = ("", "size and direction") if not (up and down) else (" to and fro", "size")
     return (
-        f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_where(steps)}), and "
+        f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_at_hours(steps)}), and "
         f"does not decay; {NOTHING_ELSEWHERE}: steps of one {which} that repeat point to "
         f"stick-slip or backlash of the machine, or to a body that nobody logs and that moves by one amount ({BODY}), "
         f"for a probe that slips does so by another amount each time{by_clock}. Nothing was taken out for them"
     )
 
 
-def _where(steps: Sequence[Step]) -> str:
+def _at_hours(steps: Sequence[Step]) -> str:
     at: dict[str, list[str]] = {}
     for s in sorted(steps, key=lambda s: (s.test.key, s.at_s)):
         at.setdefault(s.test.test, []).append(f"{s.at_s / 3600:.1f}")

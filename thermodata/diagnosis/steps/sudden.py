@@ -89,7 +89,7 @@ def comes_back(x: Float1D, t: Float1D, i: int, side: int) -> bool:
     course, stays = np.vander(u, 3), np.where(rows >= i, 1.0, 0.0)
     slowest = 1 / float(np.log(1 / BACK_TO))
     decays = [stays * np.exp(-np.maximum(u, 0.0) / tau) for tau in np.geomspace(slowest / 2**3, slowest, TIMES)]
-    left = [_left(np.column_stack([course, after]), x[rows]) for after in (stays, *decays)]
+    left = [_squared_error(np.column_stack([course, after]), x[rows]) for after in (stays, *decays)]
     return min(left[1:]) < BACK * left[0]
 
 
@@ -104,7 +104,7 @@ def smooth_but_for(x: Float1D, t: Float1D, i: int, size: float, side: int, least
     if len(rows) <= columns.shape[1]:
         return False
     level = float(np.linalg.lstsq(columns, x[rows], rcond=None)[0][-1])
-    scatter = float(np.sqrt(_left(columns, x[rows]) / (len(rows) - columns.shape[1])))
+    scatter = float(np.sqrt(_squared_error(columns, x[rows]) / (len(rows) - columns.shape[1])))
     error = scatter * float(np.sqrt(np.linalg.pinv(columns.T @ columns)[-1, -1]))
     return 1 - ALIKE <= level / size <= 1 + ALIKE and abs(level) >= least * error
 
@@ -132,7 +132,7 @@ def is_quick(x: Float1D, t: Float1D, i: int, size: float, side: int, noise: floa
     return bool(rest <= max((1 - NEARLY_ALL) * abs(size), noise))
 
 
-def _left(columns: Float2D, x: Float1D) -> float:
+def _squared_error(columns: Float2D, x: Float1D) -> float:
     """Squared error that the columns, shape (n, k), leave of x, shape (n,)."""
     return float(np.sum((x - columns @ np.linalg.lstsq(columns, x, rcond=None)[0]) ** 2))
 

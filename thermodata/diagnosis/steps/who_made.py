@@ -59,7 +59,7 @@ def _back_at(step: Step, steps: Sequence[Step]) -> str:
     own = sorted((s for s in steps if s.test.key == step.test.key), key=lambda s: s.at_s)
     place = next((i for i, s in enumerate(own) if s is step), 0)
     runs = ((i, j) for j in range(place, len(own)) for i in range(place + 1) if i < j)
-    found = next(((i, j) for i, j in runs if _returns([s.size for s in own[i : j + 1]])), None)
+    found = next(((i, j) for i, j in runs if _sizes_cancel([s.size for s in own[i : j + 1]])), None)
     if found is None:
         return ""
     first, last = found
@@ -68,7 +68,7 @@ def _back_at(step: Step, steps: Sequence[Step]) -> str:
     return f"the level of before {'it' if first == place else _hours(own[first])} comes back at {_hours(own[last])}"
 
 
-def _returns(sizes: Sequence[float]) -> bool:
+def _sizes_cancel(sizes: Sequence[float]) -> bool:
     return abs(sum(sizes)) <= ALIKE * max(map(abs, sizes))
 
 

@@ -20,15 +20,17 @@ LEAST_WINDOWS = 12  # of a test, below which there are only holes
 def in_windows(problem: Problem) -> Problem | None:
     """The tests that were measured in windows, or in part, one sample each; without what the model can do, for nothing
     is fitted to it. None where no test was."""
-    found = [(b, w) for b in problem.blocks if len(np.unique(w := _windows(b.t_s, problem.step_s))) > LEAST_WINDOWS]
+    found = [
+        (b, w) for b in problem.blocks if len(np.unique(w := _window_numbers(b.t_s, problem.step_s))) > LEAST_WINDOWS
+    ]
     if not found:
         return None
-    blocks = tuple(_means(b, w) for b, w in found)
+    blocks = tuple(_window_means(b, w) for b, w in found)
     step_s = float(np.median(np.concatenate([np.diff(b.t_s) for b in blocks])))
     return replace(problem, blocks=blocks, step_s=step_s, kept={})
 
 
-def _windows(t_s: Float1D, step_s: float) -> Int1D:
+def _window_numbers(t_s: Float1D, step_s: float) -> Int1D:
     """The number of its window for each sample, shape (m,); -1 in what is measured for longer than it is not."""
     number = np.concatenate([[0], np.cumsum(np.diff(t_s) > HOLE_STEPS * step_s)]).astype(np.int64)
     first = np.flatnonzero(np.diff(number, prepend=-1))
@@ -39,7 +41,7 @@ def _windows(t_s: Float1D, step_s: float) -> Int1D:
     return np.where(is_window[number], number, -1)
 
 
-def _means(block: Block, windows: Int1D) -> Block:
+def _window_means(block: Block, windows: Int1D) -> Block:
     used = windows >= 0
     _, first, window = np.unique(windows[used], return_index=True, return_inverse=True)
     samples = np.bincount(window).astype(np.float64)
