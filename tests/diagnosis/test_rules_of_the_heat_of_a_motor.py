@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from thermodata.diagnosis.tell.candidate.of_claim import also_of_motor, heats_its_motor, where_nothing_is_cut
-from thermodata.diagnosis.tell.candidate.row import _unread
+from thermodata.diagnosis.tell.candidate.row import _unread_places
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need
@@ -104,4 +104,4 @@ def test_a_motor_that_a_twin_reads_is_named_and_one_that_is_claimed_is_not(claim
     outcome: Any = SimpleNamespace(
         judgement=Judgement("effect", judged, (), judged, ""), investigation=SimpleNamespace(problem=problem)
     )
-    assert _unread(told, outcome, data) == places
+    assert _unread_places(told, outcome, data) == places

@@ -59,7 +59,7 @@ def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequen
         return None
     if judgement.verdict not in ("unknown", "not_testable"):
         return None
-    if resting := [j.scored.candidate for j in judgement.judged if _rests(j)]:
+    if resting := [j.scored.candidate for j in judgement.judged if _acts_in_no_locked_test(j)]:
         return next_test.to_bear_out(resting, data.channels)
     if first is not None and (only := _only_test(first, investigation)) is not None:
         return next_test.to_repeat(first.candidate, only, data.channels)
@@ -77,7 +77,7 @@ def _of_one_test_each(investigation: Investigation) -> CandidateEffect | None:
     return max(some, key=lambda s: s.evidence).candidate if some else None
 
 
-def _rests(judged: Judged) -> bool:
+def _acts_in_no_locked_test(judged: Judged) -> bool:
     """Whether the lock was opened for it, as it is likely, and it acts in none of the locked tests."""
     looked = judged.scored.looked
     return judged.refines is None and looked is not None and looked.foretold.tests == frozenset()

@@ -76,7 +76,7 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     other = others[0]
     if other.protocol is not None:
         return f"to tell {mine.id} from {other.id}: {other.protocol}"
-    moving = [_moves(one, channels) for one in (mine, other)]
+    moving = [_can_be_driven(one, channels) for one in (mine, other)]
     at_one_place = bool(_places(mine, channels)) and _places(mine, channels) == _places(other, channels)
     if at_one_place and not any(moving):
         return (
@@ -91,15 +91,15 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     elif at_one_place and mine.channels and moving == [True, False]:
         warm = [c for c in other.channels if c not in mine.channels]
         how = _BY_HEAT_OR_MOTION.format(warm=listed(warm or other.channels), moves=listed(mine.channels))
-    return f"to tell {mine.id} from {other.id}: {how.format(axis=_axis(own, channels))}"
+    return f"to tell {mine.id} from {other.id}: {how.format(axis=_axis_in_words(own, channels))}"
 
 
-def _moves(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> bool:
+def _can_be_driven(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> bool:
     """Whether it is driven by what heats a part, and by no temperature: nobody heats the one and not the other."""
     return all(c in channels and channels[c].quantity != "temperature" for c in one.channels)
 
 
-def _axis(names: Sequence[str], channels: Mapping[str, ChannelInfo]) -> str:
+def _axis_in_words(names: Sequence[str], channels: Mapping[str, ChannelInfo]) -> str:
     """'Z', by the place of the first channel; else 'the axis of feed_Z'."""
     at = str(channels[names[0]].at).split(".") if names and names[0] in channels else []
     if len(at) > 1 and at[0] == "axis":
@@ -145,7 +145,7 @@ def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, Channe
 def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, ChannelInfo]) -> str:
     """The advice where nothing is missing, but something large could hide. like: the effect of the model behind which
     it would."""
-    moved = _moved(hidden, channels)
+    moved = _how_to_move(hidden, channels)
     return f"to exclude {hidden.id}, which {like} would hide: a test {moved}, while what drives {like} rests"
 
 
@@ -158,14 +158,14 @@ def after_clocks(tests: Sequence[str], then: str | None) -> str | None:
 
 def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
     them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
-    moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))
+    moved = "; and one ".join(dict.fromkeys(_how_to_move(one, channels) for one in some))
     return (
         f"run a test with the role locked, from a cold start, {moved}. If the error there falls with {them} (diagnose "
         f"again; thermodata confirm tells each test), {they_are} what is missing; if it does not, something else is"
     )
 
 
-def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
+def _how_to_move(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     if one.protocol is not None:
         return f"for {one.id}: {one.protocol}"
     first = next((channels[c] for c in one.channels if c in channels), None)
@@ -187,7 +187,7 @@ def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelI
     verb = "acts" if len(first.channels) == 1 else "act"
     return (
         f"{first.id} ranks first, and {listed(first.channels)} {verb} in {test} only, so no other test foretells "
-        f"it: run another one {_moved(first, channels)}, and diagnose again"
+        f"it: run another one {_how_to_move(first, channels)}, and diagnose again"
     )
 
 
@@ -229,7 +229,7 @@ def to_find(
         )
     return (
         f"{took_part}: {logged}log what is not logged "
-        f"yet near the parts that work where the model fails most{_where(spots)}"
+        f"yet near the parts that work where the model fails most{_where_error_is(spots)}"
     )
 
 
@@ -261,7 +261,7 @@ def _by_what_is_logged(first: Scored, channels: Mapping[str, ChannelInfo], sourc
     return f"{listed(of)} {are} logged and {rank} first, so {alone}; if it is not that, "
 
 
-def _where(spots: Sequence[WeakSpot]) -> str:
+def _where_error_is(spots: Sequence[WeakSpot]) -> str:
     """', which is in mix from 2.0 h to 3.5 h (speed 0 to 226 rpm)': states are what parts work by, and no parts."""
     if not spots:
         return " (in no state in particular)"

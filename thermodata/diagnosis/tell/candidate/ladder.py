@@ -75,9 +75,9 @@ def courses(scored: Scored, problem: Problem) -> list[CandidateCourse]:
                 CandidateCourse(
                     campaign=block.test.campaign,
                     test=block.test.test,
-                    t_s=_short(block.t_s),
-                    residual_um=_short(block.residual),
-                    contribution_um=_short(contribution[rows]),
+                    t_s=_rounded(block.t_s),
+                    residual_um=_rounded(block.residual),
+                    contribution_um=_rounded(contribution[rows]),
                 )
             )
     return found
@@ -92,8 +92,8 @@ def chance(measure: Measure) -> list[float]:
     """Quantiles, 0 to 1 in even steps, of the log evidence that the best of all candidates has by chance."""
     if not len(measure.chance):
         return []
-    return _short(np.quantile(measure.chance, np.linspace(0, 1, _QUANTILES)))
+    return _rounded(np.quantile(measure.chance, np.linspace(0, 1, _QUANTILES)))
 
 
-def _short(values: Float1D) -> list[float]:
+def _rounded(values: Float1D) -> list[float]:
     return [float(f"{v:.5g}") for v in values]

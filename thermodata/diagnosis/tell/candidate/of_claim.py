@@ -28,13 +28,13 @@ _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 def in_spite_of(scored: Scored, measure: Measure, unit: str) -> str:
     """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
     lifted = [r.name for r in rules(scored, measure, unit) if r.holds and not r.asked]
-    words = {"fall": f"that the error {_falls(scored)}", **_OUTWEIGHED}
+    words = {"fall": f"that the error {_fall_in_words(scored)}", **_OUTWEIGHED}
     said = " and ".join(words[name] for name in lifted if name in words)
     evident = f"its evidence, {sharpness(scored):.2f} a sample, outweighs"
     return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
 
 
-def _falls(scored: Scored) -> str:
+def _fall_in_words(scored: Scored) -> str:
     """As its figures say: 'does not fall', 'hardly falls', 'falls by 10 % only'."""
     said = way(scored.error_before, scored.error_after)
     of = of_more_than_noise(scored.drop, scored.error_before, scored.error_after)

@@ -80,10 +80,10 @@ def _in_one_way(scored: Scored, looked: Looked, tests: str) -> str:
         return f", which bear it out as it stands, and not where {_OTHERWISE}"
     if looked.bears_out:
         return ""
-    return f"; {on_locked(looked)}, which is less than a cause mostly takes away, but {_outweighs(scored, tests)}"
+    return f"; {on_locked(looked)}, which is less than a cause mostly takes away, but {_what_outweighs(scored, tests)}"
 
 
-def _outweighs(scored: Scored, tests: str) -> str:
+def _what_outweighs(scored: Scored, tests: str) -> str:
     """What of the open tests outweighs locked ones that speak against a claim."""
     count = int(scored.acts.sum())
     gain = f", with a gain that differs by {in_percent(scored.spread)}" if count >= LEAST_TESTS else ""

@@ -33,7 +33,8 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
     heads = first or claimed or among(told.member, judgement.refused)
     refining = among(told.member, judgement.refinements)
     shape = _on_locked(told, refining=refining)
-    unread = _unread(told, outcome, data) if heads or told.stated else []
+    asked = held.asked if held else scored.looked.foretold.tests if scored.looked else None
+    unread = _unread_places(told, outcome, data) if heads or told.stated else []
     return Candidate(
         rank=rank,
         id=scored.candidate.id,
@@ -60,7 +61,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         locked_rmse_um_fitted=held.stands if held else None,
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
-        locked_tests_asked=_count(held.asked if held else scored.looked.foretold.tests if scored.looked else None),
+        locked_tests_asked=None if asked is None else len(asked),
         stands_for=stands_for(scored, held) if held else None,
         as_modelled=scored.as_modelled,
         parameters=held.parameters.get(scored.candidate.id, {}) if held else {},
@@ -88,7 +89,7 @@ def alike_both_ways(found: Sequence[Candidate]) -> list[Candidate]:
     return [one.model_copy(update={"equivalent": twins[one.id]}) for one in found]
 
 
-def _unread(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
+def _unread_places(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
     """Places of other parts that it may be; not those that a temperature reads which the answer names beside it. The
     motor of a spindle that cuts nothing comes first, unless another claim reads it."""
     scored, claims = told.listed, [j.scored.candidate for j in outcome.judgement.claims]
@@ -102,10 +103,6 @@ def _unread(told: Told, outcome: Outcome, data: Dataset) -> list[str]:
     found = [place for place in motors if not reads(read_by(claims), place)]
     beside = read_by([*told.twins, *claims])
     return list(dict.fromkeys([*found, *(place for place in elsewhere(scored) if not reads(beside, place))]))
-
-
-def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
-    return None if tests is None else len(tests)
 
 
 def _on_locked(told: Told, *, refining: bool) -> Foretold | None:

@@ -31,33 +31,33 @@ ALIKE = 0.1  # of an error: two that differ by less are not told apart
 def why(told: Told, outcome: Outcome) -> str:
     """The figures of a row, and then: what speaks for a claim, what a refinement is, or why it is neither."""
     judged, judgement = told.judged, outcome.judgement
-    numbers = _figures(told, outcome)
+    numbers = _errors_in_words(told, outcome)
     if told.by_another:
         numbers = f"it is one equation with {told.one.candidate.id} and told as that: {numbers}"
     if judged is not None and among(judged, judgement.claims):
         if told.by_another:
             return f"{numbers}; not claimed: it is claimed by that name"
-        return f"{numbers}{_claimed(told, judged, outcome)}"
+        return f"{numbers}{_why_claimed(told, judged, outcome)}"
     refused = among(judged, judgement.refused)
     if judged is not None and judged.refines and not refused:
         refines = judged.refines
         if not told.twins and len(told.errors.rows):
             refines = by_kind(refines, from_to(*errors_of_all(told.errors), outcome.unit, "from", "to"))
         return f"{numbers}; a refinement, not claimed as missing: {not_advised(refines, told.against)}"
-    reason = _refused(told.one, judgement) if refused else _not_claimed(told, outcome)
+    reason = _why_refused(told.one, judgement) if refused else _not_claimed(told, outcome)
     return f"{numbers}; not claimed: {reason}"
 
 
-def _figures(told: Told, outcome: Outcome) -> str:
+def _errors_in_words(told: Told, outcome: Outcome) -> str:
     """What it does to the errors."""
     if told.of_model and told.others:
         left = from_to(*errors_of_all(told.errors), outcome.unit, "from", "to")
-        own = _numbers(told, outcome)
+        own = _fall_where_it_acts(told, outcome)
         return f"alone it takes the error on left-out {outcome.tests} {left}; it is judged beside others: {own}"
-    return _numbers(told, outcome, of_all=told.errors)
+    return _fall_where_it_acts(told, outcome, of_all=told.errors)
 
 
-def _claimed(told: Told, judged: Judged, outcome: Outcome) -> str:
+def _why_claimed(told: Told, judged: Judged, outcome: Outcome) -> str:
     """What speaks for a claim, and what is to be known of it."""
     scored, held, judgement = told.one, told.held, outcome.judgement
     measure, unit = outcome.measure, outcome.unit
@@ -125,7 +125,7 @@ def would_be_a_mode(one: CandidateEffect) -> str:
     )
 
 
-def _numbers(told: Told, outcome: Outcome, of_all: Scored | None = None) -> str:
+def _fall_where_it_acts(told: Told, outcome: Outcome, of_all: Scored | None = None) -> str:
     """Where it acts, how far the error falls there, and in how many tests it says so. of_all: what the errors over all
     tests are said of, where they are said."""
     scored, unit, tests = told.one, outcome.unit, outcome.tests
@@ -175,7 +175,7 @@ def _of_all(scored: Scored, told: Scored | None, tests: str, unit: str) -> str:
     return f" (over all {tests}, with these fitted to the other {tests} too, it goes {from_to(*left, unit)})"
 
 
-def _refused(scored: Scored, judgement: Judgement) -> str:
+def _why_refused(scored: Scored, judgement: Judgement) -> str:
     """Why what keeps every rule on the open tests is no claim."""
     if not judgement.claims:
         return judgement.reason

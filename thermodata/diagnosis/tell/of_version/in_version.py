@@ -16,12 +16,12 @@ from thermodata.view.grid.dataset import TestData
 def told_by_versions(judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> Judgement:
     """With the words of each refinement by the version with it and all that is claimed."""
     for one in judgement.refinements:
-        if words := _told(one, judgement, refit, tests):
-            judgement = _with(judgement, one, replace(one, refines=words))
+        if words := _difference_in_version(one, judgement, refit, tests):
+            judgement = _with_member(judgement, one, replace(one, refines=words))
     return judgement
 
 
-def _with(judgement: Judgement, old: Judged, new: Judged) -> Judgement:
+def _with_member(judgement: Judgement, old: Judged, new: Judged) -> Judgement:
     """With one member in place of another, wherever it stands."""
     refinements, judged = (
         tuple(new if j is old else j for j in some) for some in (judgement.refinements, judgement.judged)
@@ -29,7 +29,7 @@ def _with(judgement: Judgement, old: Judged, new: Judged) -> Judgement:
     return replace(judgement, refinements=refinements, judged=judged)
 
 
-def _told(one: Judged, judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> str | None:
+def _difference_in_version(one: Judged, judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> str | None:
     candidate = one.scored.candidate
     if not isinstance(candidate, ChangedEffect):
         return None

@@ -82,7 +82,9 @@ def told_alike(investigation: Investigation, judgement: Judgement, left: Float1D
         if (of_model or not judged_beside(one.scored, one, investigation, judgement)) and len(left) == len(scored.rows):
             told[id(one.scored.columns)] = replace(scored, sse_after=left * scored.rows), True
     # what was selected first, then what foretells best
-    models = [(j.scored, *told.get(id(j.scored.columns), _told(j, investigation, judgement))) for j in judged]
+    models = [
+        (j.scored, *told.get(id(j.scored.columns), _told_beside_others(j, investigation, judgement))) for j in judged
+    ]
     tests = list({id(b.test): b.test for b in investigation.problem.blocks}.values())
     others = [s for s in investigation.selection.first.ranked if len(s.rows)]
     others = [s for s in others if not any(s.columns is j.scored.columns for j in judged)]
@@ -95,7 +97,7 @@ def told_alike(investigation: Investigation, judgement: Judgement, left: Float1D
     return replace(investigation, told=told)
 
 
-def _told(one: Judged, investigation: Investigation, judgement: Judgement) -> tuple[Scored, bool]:
+def _told_beside_others(one: Judged, investigation: Investigation, judgement: Judgement) -> tuple[Scored, bool]:
     scored, of_model = beside_the_model(one.scored, investigation)
     others = () if of_model else tuple(judged_beside(one.scored, one, investigation, judgement))
     return replace(scored, others=others), of_model
