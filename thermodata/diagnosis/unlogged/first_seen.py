@@ -37,8 +37,8 @@ def where(
     """A sentence or two; what the data can't say is said to be so. strong, weak: the tests in which it is strongest,
     and absent; warm: the key of the test at whose warm start the model fails most."""
     suspect, first = supposed.suspect, supposed.first
-    told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
-    said = [*_doubted(heat, supposed.doubt), told]
+    told = _when_it_runs(found, [_test_in_words(t, heat) for t in strong], [_test_in_words(t, heat) for t in weak])
+    said = [*_body_with_doubt(heat, supposed.doubt), told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
     if is_warm:
         said.append(_began_warm(strongest))
@@ -53,7 +53,7 @@ def where(
     # a heat that goes both ways is never on or off, and is compared with temperatures alone
     channel = "channel" if heat.sign else "temperature"
     none = f"No logged {channel} {'goes with it' if first is None else 'has just its course'}"
-    return ". ".join([*said, *_place(found, none, look_at, suspect), *_direction(heat)])
+    return ". ".join([*said, *_where_to_measure(found, none, look_at, suspect), *_doubt_of_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -61,7 +61,7 @@ def minutes(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
-def _doubted(heat: MissingHeat, doubt: Doubt) -> list[str]:
+def _body_with_doubt(heat: MissingHeat, doubt: Doubt) -> list[str]:
     """The body, after the doubt whether there is any, or before it where its direction speaks against that doubt."""
     if doubt == "none":
         return [_capital(_body(heat))]
@@ -97,24 +97,24 @@ def _body(heat: MissingHeat) -> str:
     return f"{text}, that moves the response to {'plus' if heat.sign > 0 else 'minus'} when it is heated"
 
 
-def _when(found: Sequence[Companion], strong: Sequence[str], weak: Sequence[str]) -> str:
+def _when_it_runs(found: Sequence[Companion], strong: Sequence[str], weak: Sequence[str]) -> str:
     close = [c for c in found if c.verdict == "with" and c.on_with is not None]
     parts = []
     if close:
-        parts.append("on while " + ", ".join(map(_runs, close[:NAMED])))
+        parts.append("on while " + ", ".join(map(_how_often_it_runs, close[:NAMED])))
     parts.append("strongest in " + ", ".join(strong[:NAMED]))
     if weak:
         parts.append("absent in " + ", ".join(weak[:NAMED]))
     return _capital("; ".join(parts))
 
 
-def _runs(one: Companion) -> str:
+def _how_often_it_runs(one: Companion) -> str:
     then, other = (one.on_without, one.on_with) if one.is_inverse else (one.on_with, one.on_without)
     often = f"{in_percent(then or 0.0)} of that time, else {in_percent(other or 0.0)}"
     return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({often})"
 
 
-def _place(found: Sequence[Companion], none: str, look_at: str, suspect: Suspect | None) -> list[str]:
+def _where_to_measure(found: Sequence[Companion], none: str, look_at: str, suspect: Suspect | None) -> list[str]:
     """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. none: that
     nothing goes with it; look_at: what is to be looked at then."""
     near = _places([c for c in found if c.verdict == "with"])
@@ -125,17 +125,18 @@ def _place(found: Sequence[Companion], none: str, look_at: str, suspect: Suspect
     if near:
         sensor = "If it is not, a" if suspect else "A"
         said.append(
-            f"{sensor} sensor would see it first near {_or(near)}" + (f" rather than near {_or(far)}" if far else "")
+            f"{sensor} sensor would see it first near {_joined_by_or(near)}"
+            + (f" rather than near {_joined_by_or(far)}" if far else "")
         )
     elif suspect is None:
         said.append(
             f"{none}, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
-            + (f"; least like it is what is logged near {_or(far)}" if far else "")
+            + (f"; least like it is what is logged near {_joined_by_or(far)}" if far else "")
             + look_at
         )
     elif far:
-        said.append(f"Least like it is what is logged near {_or(far)}")
+        said.append(f"Least like it is what is logged near {_joined_by_or(far)}")
     if followed:
         said.append(
             f"{', '.join(followed[:NAMED])} {'is' if len(followed) == 1 else 'are'} logged and already "
@@ -169,13 +170,13 @@ def _to_look_at(strongest: TestData, name: str, first: First | None, is_warm: bo
     return f"; {ranks} and acts in {name}: {names} {verb} to be looked at before anything that is not logged"
 
 
-def _direction(heat: MissingHeat) -> list[str]:
+def _doubt_of_direction(heat: MissingHeat) -> list[str]:
     if not heat.sign or heat.agreed >= SURE:
         return []
     return [f"Only {in_percent(heat.agreed)} of the draws of the tests agree on the direction: more tests are needed"]
 
 
-def _test(test: TestData, heat: MissingHeat) -> str:
+def _test_in_words(test: TestData, heat: MissingHeat) -> str:
     kind, name = test.kind.replace("_", " "), name_of(test, heat)
     return f"{name} ({kind})" if kind not in ("", "other", test.test) else name
 
@@ -190,7 +191,7 @@ def _places(found: Sequence[Companion]) -> list[str]:
     return list(dict.fromkeys(c.info.at or c.info.name for c in found))
 
 
-def _or(names: Sequence[str]) -> str:
+def _joined_by_or(names: Sequence[str]) -> str:
     shown = list(names[:NAMED])
     return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} or {shown[-1]}"
 

@@ -61,9 +61,9 @@ def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companio
         if info.is_mask:
             continue
         if info.quantity.startswith("temperature"):
-            found.append(_temperature(heat.courses, info, switched=heat.sign != 0))
+            found.append(_companion_by_temperature(heat.courses, info, switched=heat.sign != 0))
         elif info.quantity in RESTS_AT_ZERO + RESTS_ABOVE_ZERO and heat.sign:
-            found.append(_activity(heat.courses, info, seed))
+            found.append(_companion_by_activity(heat.courses, info, seed))
     return sorted((f for f in found if f is not None), key=_closeness, reverse=True)
 
 
@@ -106,9 +106,9 @@ def _closeness(one: Companion) -> float:
     return abs(apart) if one.verdict == "with" else apart
 
 
-def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Companion | None:
+def _companion_by_activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Companion | None:
     """None where the channel hardly runs or hardly rests."""
-    runs = _running(courses, info)
+    runs = _running_shares(courses, info)
     if runs is None:
         return None
     is_on = when_on(courses, SOURCE_RESTS)
@@ -133,7 +133,7 @@ def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Compan
     return Companion(info, verdict, with_, without, None)
 
 
-def _running(courses: Sequence[Course], info: ChannelInfo) -> list[Float1D] | None:
+def _running_shares(courses: Sequence[Course], info: ChannelInfo) -> list[Float1D] | None:
     """The share of each step in which the channel runs, a test each, shape (n,); it rests where it was not logged."""
     values = [
         np.where(c.test.valid[info.name], c.test.values[info.name], np.nan) if info.name in c.test.values else None
@@ -157,7 +157,7 @@ def _running(courses: Sequence[Course], info: ChannelInfo) -> list[Float1D] | No
     return shares
 
 
-def _temperature(courses: Sequence[Course], info: ChannelInfo, switched: bool) -> Companion | None:
+def _companion_by_temperature(courses: Sequence[Course], info: ChannelInfo, switched: bool) -> Companion | None:
     """None where it never moves or was not logged in all tests. switched: the source goes one way only. One that goes
     both ways is the residual itself, of which the known effects took what they could: the rest may look like nothing
     that warmed the machine."""

@@ -98,13 +98,13 @@ def missing_heat(problem: Problem, seed: int = 0) -> MissingHeat | None:
     fits = [f for sign in (1, -1) for tau in TAUS_S for f in _fits(tests, sign, tau, price)]
     judge = _Criterion(rows, LEAVES**2 * energy / rows.sum())
     best = judge.simplest(fits)
-    if judge(best.errors, best.changes) >= judge(_without(tests, price), np.zeros(len(tests))):
+    if judge(best.errors, best.changes) >= judge(_errors_without_source(tests, price), np.zeros(len(tests))):
         return None
     other = judge.simplest([f for f in fits if f.sign != best.sign])
     if judge(other.errors, other.changes) - judge(best.errors, best.changes) < ONE_SIDED * rows.sum():
         fits = [f for tau in TAUS_S for f in _fits(tests, 0, tau, price)]
         best = judge.simplest(fits)
-    drawn = _drawn(fits, judge, seed)
+    drawn = _fits_of_draws(fits, judge, seed)
     low, high = np.quantile([f.tau_s for f in drawn], (0.05, 0.95))
     # between two points of the grid none was tried
     half = float(np.sqrt(TAUS_S[1] / TAUS_S[0]))
@@ -135,27 +135,27 @@ def _changes(solution: Solution, there: NDArray[np.bool_]) -> Float2D:
     return np.where(there, np.abs(np.diff(solution.source, axis=1, prepend=0.0)), 0.0)
 
 
-def _typical(changes: Float2D, there: NDArray[np.bool_]) -> float:
+def _typical_change(changes: Float2D, there: NDArray[np.bool_]) -> float:
     return rms([changes[there]]) or 1.0
 
 
 def counted(changes: Float2D, there: NDArray[np.bool_]) -> Float1D:
     """How many changes of a source are parameters, in each test: shapes (tests, n) to (tests,)."""
-    return np.asarray(np.sum(changes > CHANGE * _typical(changes, there), axis=1), dtype=np.float64)
+    return np.asarray(np.sum(changes > CHANGE * _typical_change(changes, there), axis=1), dtype=np.float64)
 
 
-def _blocky(normal: Normal, scale: float, one_way: bool) -> Solution:
+def _blocky_solution(normal: Normal, scale: float, one_way: bool) -> Solution:
     """Reweighted so that the sum of changes is held down, not of their squares: few steps, of any height."""
     weight, solution = np.ones(normal.aim.shape), None
     for _ in range(1 + REWEIGHTINGS):
         solution = solve(normal, scale * _penalty(weight, normal.there), solution, one_way=one_way)
         changes = _changes(solution, normal.there)
-        weight = 1 / np.maximum(changes / _typical(changes, normal.there), 0.01)
+        weight = 1 / np.maximum(changes / _typical_change(changes, normal.there), 0.01)
     assert solution is not None
     return solution
 
 
-def _scale(test: SteppedTest, tau_s: float, strength: float) -> float:
+def _penalty_scale(test: SteppedTest, tau_s: float, strength: float) -> float:
     """Of the penalty: by what one step of the source can move, so that one strength serves all time constants."""
     return strength * float(np.expm1(-(test.edges[1] - test.edges[0]) / tau_s)) ** 2
 
@@ -165,19 +165,19 @@ def _fits(tests: Sequence[SteppedTest], sign: int, tau_s: float, price: float) -
     normal = normal_equations(columns, price)
     made = []
     for strength in STRENGTHS:
-        solution = _blocky(normal, _scale(tests[0], tau_s, strength), one_way=sign != 0)
+        solution = _blocky_solution(normal, _penalty_scale(tests[0], tau_s, strength), one_way=sign != 0)
         changes = _changes(solution, normal.there)
-        errors = np.array([np.sum(_left(c, solution, i) ** 2) for i, c in enumerate(columns)])
+        errors = np.array([np.sum(_residual_left(c, solution, i) ** 2) for i, c in enumerate(columns)])
         made.append(_Fit(sign, tau_s, strength, solution, errors, counted(changes, normal.there)))
     return made
 
 
-def _left(columns: SourceColumns, solution: Solution, test: int) -> Float1D:
+def _residual_left(columns: SourceColumns, solution: Solution, test: int) -> Float1D:
     own = solution.source[test, : columns.source.shape[1]]
     return np.asarray(columns.residual - columns.source @ own - columns.known @ solution.known)
 
 
-def _without(tests: Sequence[SteppedTest], price: float) -> Float1D:
+def _errors_without_source(tests: Sequence[SteppedTest], price: float) -> Float1D:
     """Squared error of each test with what the known effects can still do alone."""
     k = tests[0].known.shape[1]
     gram = sum((t.known.T @ t.known for t in tests), price * np.eye(k))
@@ -204,7 +204,7 @@ class _Criterion:
         return fits[int(np.argmin(self(errors, changes, times)))]
 
 
-def _drawn(fits: Sequence[_Fit], judge: _Criterion, seed: int) -> list[_Fit]:
+def _fits_of_draws(fits: Sequence[_Fit], judge: _Criterion, seed: int) -> list[_Fit]:
     """The choice made anew with tests drawn with replacement [efron1979]: how far it hangs on single tests."""
     rng, tests = np.random.default_rng(seed), len(judge.rows)
     draws = (np.bincount(rng.integers(0, tests, tests), minlength=tests) for _ in range(RESAMPLED))
@@ -220,13 +220,13 @@ def _left_out_error(tests: Sequence[SteppedTest], best: _Fit, price: float) -> f
         for t in tests:
             part = np.floor((t.t_s - t.edges[0]) / (PART_STEPS * (t.edges[1] - t.edges[0])))
             columns.append(source_columns(t, best.sign, best.tau_s, (part % 2 != turn) | (part == 0)))
-        scale = _scale(tests[0], best.tau_s, best.strength)
-        solution = _blocky(normal_equations(columns, price), scale, one_way=best.sign != 0)
-        error += sum(float(np.sum(_left(c, solution, i)[~c.seen] ** 2)) for i, c in enumerate(columns))
+        scale = _penalty_scale(tests[0], best.tau_s, best.strength)
+        solution = _blocky_solution(normal_equations(columns, price), scale, one_way=best.sign != 0)
+        error += sum(float(np.sum(_residual_left(c, solution, i)[~c.seen] ** 2)) for i, c in enumerate(columns))
     # the first parts, which none left out, with the error of the whole
     for i, t in enumerate(tests):
         first = t.t_s - t.edges[0] < PART_STEPS * (t.edges[1] - t.edges[0])
-        error += float(np.sum(_left(source_columns(t, best.sign, best.tau_s), best.solution, i)[first] ** 2))
+        error += float(np.sum(_residual_left(source_columns(t, best.sign, best.tau_s), best.solution, i)[first] ** 2))
     return error
 
 

@@ -54,7 +54,7 @@ def solve(normal: Normal, penalty: Array, start: Solution | None = None, *, one_
     q = np.zeros_like(normal.aim) if start is None else start.source
     c = np.zeros_like(normal.shared_aim) if start is None else start.known
     largest = max(float(np.abs(normal.aim).max(initial=0.0)), 1e-300)
-    height = _height(normal, matrix, q, c)
+    height = _objective(normal, matrix, q, c)
     for _ in range(STEPS):
         slope = (matrix @ q[..., None])[..., 0] + normal.cross @ c - normal.aim
         if one_way:
@@ -69,7 +69,7 @@ def solve(normal: Normal, penalty: Array, start: Solution | None = None, *, one_
         for _ in range(HALVINGS):
             moved = q + share * (aim_q - q)
             q_new, c_new = np.maximum(moved, 0.0) if one_way else moved, c + share * (aim_c - c)
-            lower = _height(normal, matrix, q_new, c_new)
+            lower = _objective(normal, matrix, q_new, c_new)
             if lower < height - 1e-14 * abs(height):
                 break
             share /= 2
@@ -93,7 +93,7 @@ def _newton(normal: Normal, matrix: Array, free: NDArray[np.bool_]) -> tuple[Flo
     return own - by_known @ c, c
 
 
-def _height(normal: Normal, matrix: Array, q: Float2D, c: Float1D) -> float:
+def _objective(normal: Normal, matrix: Array, q: Float2D, c: Float1D) -> float:
     """Half of what is minimised, less half of sum |r|^2."""
     pull = (matrix @ q[..., None])[..., 0] / 2 + normal.cross @ c - normal.aim
     return float(np.sum(q * pull) + c @ (normal.shared @ c / 2 - normal.shared_aim))

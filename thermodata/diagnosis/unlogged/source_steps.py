@@ -44,10 +44,10 @@ def in_steps(problem: Problem) -> list[SteppedTest]:
         of_test.setdefault(block.test.key, []).append(block)
     longest = max((float(b.t_s[-1] - b.test.t_s[0]) for b in problem.blocks), default=0.0)
     step_s = max(SHORTEST_STEP_S, 2 * problem.step_s, longest / STEPS_A_TEST)
-    return [_averaged(blocks, step_s) for blocks in of_test.values()]
+    return [_averaged_over_steps(blocks, step_s) for blocks in of_test.values()]
 
 
-def _averaged(blocks: Sequence[Block], step_s: float) -> SteppedTest:
+def _averaged_over_steps(blocks: Sequence[Block], step_s: float) -> SteppedTest:
     start = float(blocks[0].test.t_s[0])
     t_s = np.concatenate([b.t_s for b in blocks])
     first = np.cumsum([0, *(int(b.segment.max()) + 1 for b in blocks)])

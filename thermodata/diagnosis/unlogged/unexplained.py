@@ -30,7 +30,7 @@ def characterise(
     warm = spots[0] if spots and spots[0].after_warm_start else None
     return Unknown(
         time_constants_h=_time_constants(problem),
-        hours_of_day=_hours(problem),
+        hours_of_day=_hours_that_stand_out(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
         heat=None if supposed.doubt == "all" else _heat(problem, supposed, warm),
         not_logged=unread,
@@ -48,13 +48,13 @@ def _heat(problem: Problem, supposed: Supposed, warm: WeakSpot | None) -> Missin
     ruled_out = [c for c in reversed(found) if c.verdict == "not" and c.info.name not in supposed.channels]
     began_warm = None if warm is None else (warm.campaign, warm.test)
     return MissingHeat(
-        time_constant_h=_short(heat.tau_s / 3600),
-        time_constant_low_h=None if low <= TAUS_S[0] else _short(low / 3600),
-        time_constant_high_h=None if high >= TAUS_S[-1] else _short(high / 3600),
+        time_constant_h=_rounded(heat.tau_s / 3600),
+        time_constant_low_h=None if low <= TAUS_S[0] else _rounded(low / 3600),
+        time_constant_high_h=None if high >= TAUS_S[-1] else _rounded(high / 3600),
         direction=None if not heat.sign else "+" if heat.sign > 0 else "-",
         agreed=heat.agreed if heat.sign else None,
-        explained=_short(heat.explained),
-        left_out=_short(heat.predicted),
+        explained=_rounded(heat.explained),
+        left_out=_rounded(heat.predicted),
         hours_of_day=goes_with.hours_of_day(heat),
         strong_tests=[first_seen.name_of(t, heat) for t in strong],
         weak_tests=[first_seen.name_of(t, heat) for t in weak],
@@ -66,7 +66,7 @@ def _heat(problem: Problem, supposed: Supposed, warm: WeakSpot | None) -> Missin
 
 
 def _companion(one: goes_with.Companion) -> HeatCompanion:
-    shares = (None if s is None else _short(s) for s in (one.on_with, one.on_without, one.follows))
+    shares = (None if s is None else _rounded(s) for s in (one.on_with, one.on_without, one.follows))
     on_with, on_without, follows = shares
     return HeatCompanion(channel=one.info.name, at=one.info.at, on_with=on_with, on_without=on_without, follows=follows)
 
@@ -77,13 +77,13 @@ def _course(course: Course) -> HeatCourse:
         test=course.test.test,
         from_s=course.from_s,
         step_s=course.step_s,
-        source_um=[_short(x) for x in course.source],
-        contribution_um=[_short(x) for x in course.contribution],
-        residual_um=[_short(x) if np.isfinite(x) else None for x in course.residual],
+        source_um=[_rounded(x) for x in course.source],
+        contribution_um=[_rounded(x) for x in course.contribution],
+        residual_um=[_rounded(x) if np.isfinite(x) else None for x in course.residual],
     )
 
 
-def _short(value: float) -> float:
+def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
@@ -111,7 +111,7 @@ def _time_constants(problem: Problem) -> list[float]:
     return [float(round(below[0] * problem.step_s / 3600, 3))]
 
 
-def _hours(problem: Problem) -> list[float]:
+def _hours_that_stand_out(problem: Problem) -> list[float]:
     """Hours of the day (UTC) whose mean residual stands out in most of the days that cover them."""
     days: list[tuple[Float1D, Float1D]] = []
     for block in problem.blocks:
