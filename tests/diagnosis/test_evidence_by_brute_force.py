@@ -22,7 +22,7 @@ from thermodata.diagnosis.question.directions import Weighted, log_evidence
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import Known, known, likeliest, others_of_each
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.verdict.on_locked import _with, foretell
+from thermodata.diagnosis.verdict.on_locked import _with_effects_as_open, foretell
 from thermodata.diagnosis.weigh import evidence as weighing
 from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.evidence import (
@@ -144,7 +144,7 @@ def test_locked_tests_are_made_more_probable_by_the_difference_of_two_conditiona
     open_tests = replace(one, blocks=one.blocks[:3], kept={})
     claim = rank_in(open_tests, [made(open_tests)], NOISE).ranked[0]
     found = foretell(one, 3, NOISE, [], [claim])
-    without, among = known(one, NOISE), known(_with(one, opened, NOISE, [claim])[0], NOISE)
+    without, among = known(one, NOISE), known(_with_effects_as_open(one, opened, NOISE, [claim])[0], NOISE)
 
     def conditional(base: Known) -> float:
         return log_density(base.problem, range(4), base) - log_density(base.problem, range(3), base)

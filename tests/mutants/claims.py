@@ -340,9 +340,17 @@ MUTANTS = [
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
     diagnosis("probability.py", "max(samples, 1), FALLS[1], ", "max(samples, 1), 0.0, ", "a second look is not taken"),
     diagnosis(
-        "selection.py", "(_only(first, some), beside_all))", "(beside_all,))", "what stands out alone is not seen"
+        "selection.py",
+        "(_ranked_among(first, some), beside_all))",
+        "(beside_all,))",
+        "what stands out alone is not seen",
     ),
-    diagnosis("selection.py", "(_only(first, some), beside_all))", "(_only(first, some),))", "nor beside the members"),
+    diagnosis(
+        "selection.py",
+        "(_ranked_among(first, some), beside_all))",
+        "(_ranked_among(first, some),))",
+        "nor beside the members",
+    ),
     diagnosis("investigate.py", " and any_stands_out(", " and not any_stands_out(", "it is looked for in vain"),
     # ---- what is more than noise
     diagnosis("beyond_noise.py", "error**2 - white**2", "error**2", "a loud probe hides a fall"),
@@ -424,7 +432,12 @@ MUTANTS = [
         "the locked tests take part in the estimate",
     ),
     diagnosis("on_locked.py", "import rms_about_means", "import rms as rms_about_means", "an unlucky zero withdraws"),
-    diagnosis("on_locked.py", "_with(problem, tests, noise, kept)", "problem", "what else was selected is forgotten"),
+    diagnosis(
+        "on_locked.py",
+        "_with_effects_as_open(problem, tests, noise, kept)",
+        "problem",
+        "what else was selected is forgotten",
+    ),
     diagnosis(
         "confirm.py",
         "before, after = self.shape_before, self.shape_after",
@@ -630,11 +643,11 @@ MUTANTS = [
     diagnosis("preference.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
     diagnosis(
         "preference.py",
-        "(_drove_out(own, best, ranking) or _clearly",
-        "(_clearly",
+        "(_drove_out(own, best, ranking) or _is_clearly_likelier",
+        "(_is_clearly_likelier",
         "a lag that drove out a name takes its place",
     ),
-    diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
+    diagnosis("preference.py", " or _is_clearly_likelier(best, own))", " or True)", "members are swapped by a hair"),
     diagnosis(
         "preference.py", "better or is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
     ),

@@ -52,14 +52,14 @@ def as_modelled(problem: Problem, selection: Selection | None, measure: Measure,
     with threadpool_limits(1):
         tight = _as_it_stands(problem)
         base = known(tight, likeliest(tight))
-        if _left(base, np.zeros(len(tight.blocks), dtype=np.bool_)) <= NOISY * problem.noise:
+        if _error_left(base, np.zeros(len(tight.blocks), dtype=np.bool_)) <= NOISY * problem.noise:
             return None
-        foretold = _foretold(tight)
-        left = _left(base, foretold)
+        foretold = _is_foretold(tight)
+        left = _error_left(base, foretold)
         if not offers or left <= measure.noises:
             return AsModelled(left, None)
         pool = [s.columns for s in selection.first.ranked]
-        ranked = tuple(_asked(s, foretold) for s in rank_in(tight, pool, base.space.noise).ranked)
+        ranked = tuple(_scored_as_modelled(s, foretold) for s in rank_in(tight, pool, base.space.noise).ranked)
     sound = [s for s in ranked if len(s.rows) and _is_sound(s) and s.error_of_all <= (1 - FALLS) * left]
     best = min(sound, key=lambda s: s.error_of_all, default=None)
     if best is None:
@@ -84,7 +84,7 @@ def _as_it_stands(problem: Problem) -> Problem:
     return replace(problem, blocks=blocks)
 
 
-def _foretold(tight: Problem) -> Bool1D:
+def _is_foretold(tight: Problem) -> Bool1D:
     """Whether the other tests foretell each one: what an effect of the model does in one test alone they say nothing
     of, as of a tool that one test had; there the model is taken as all tests fit it."""
     energy = np.array([np.sum(b.base**2, axis=0) for b in tight.blocks])
@@ -92,7 +92,7 @@ def _foretold(tight: Problem) -> Bool1D:
     return np.asarray((share < ALONE).all(axis=1))
 
 
-def _left(base: Known, foretold: Bool1D) -> float:
+def _error_left(base: Known, foretold: Bool1D) -> float:
     """RMS error of all tests, each alike: of those that are foretold by a fit to the others, else to all."""
     squares = []
     for i, block in enumerate(base.problem.blocks):
@@ -101,7 +101,7 @@ def _left(base: Known, foretold: Bool1D) -> float:
     return float(np.sqrt(np.mean(squares)))
 
 
-def _asked(scored: Scored, foretold: Bool1D) -> Scored:
+def _scored_as_modelled(scored: Scored, foretold: Bool1D) -> Scored:
     if not len(scored.rows):
         return replace(scored, as_modelled=True)
     before, after = (

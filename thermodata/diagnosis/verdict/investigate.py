@@ -101,7 +101,7 @@ def investigate(inquiry: Inquiry, given: Given | None = None, prepared: Prepared
     lock = Lock(_with_locked(inquiry, given.locked, problem, base), len(problem.blocks))
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection, judgement, measure = _judged(fitted, problem, asked, inquiry.seed, witness, lock)
+        selection, judgement, measure = _select_and_judge(fitted, problem, asked, inquiry.seed, witness, lock)
         unseen = () if selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, unforetold)
     asked_about = fitted if given.as_fitted is None else given.as_fitted
@@ -169,7 +169,7 @@ def causes_of(inquiry: Inquiry, means: Means) -> list[Scored]:
     problem, fine = weighed(inquiry.fitted, inquiry.data, inquiry.tests)
     problem = sharing(problem, means)
     asked = of_library(inquiry.fitted, inquiry.data, inquiry.tests, inquiry.library, fine)
-    _, judgement, _ = _judged(inquiry.fitted, problem, asked, inquiry.seed)
+    _, judgement, _ = _select_and_judge(inquiry.fitted, problem, asked, inquiry.seed)
     return [j.scored for j in judgement.judged if j.refines is None]
 
 
@@ -189,7 +189,7 @@ def _without_steps(fitted: FittedResponse, problem: Problem, steps: Sequence[Ste
     return problem.split(at, parted_s=problem.step_s / 2 + 0.99 * seen_s)
 
 
-def _judged(
+def _select_and_judge(
     fitted: FittedResponse,
     problem: Problem,
     asked: Sequence[CandidateEffect],
@@ -217,8 +217,8 @@ def _judged(
         standing = [j for j in told.judged if j.refines is None and may_be_borne_out(j.scored)]
         # the locked tests are looked at in the end anyway, and each other axis is a diagnosis of its own
         open_still = [j for j in standing if lock is None or not lock.confirms(found, told, j, measure)]
-        if heard := _heard(open_still, witness):
-            found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
+        if heard := _said_by_other_axes(open_still, witness):
+            found = replace(found, members=tuple(_with_other_axes(m, heard) for m in found.members))
             told = judge(problem, found, measure, refines)
         return found, told, bool(told.claims) or len(open_still) < len(standing)
 
@@ -235,13 +235,13 @@ def _judged(
     return selection, judgement, measure
 
 
-def _heard(standing: Sequence[Judged], witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
+def _said_by_other_axes(standing: Sequence[Judged], witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
     """What other axes say of members that are no claim without them, by their columns' identity."""
     said = {id(j.scored.columns): witness(j.scored) for j in standing}
     return {columns: told for columns, told in said.items() if told}
 
 
-def _seen(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) -> Member:
+def _with_other_axes(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) -> Member:
     said = heard.get(id(member.scored.columns))
     return member if said is None else replace(member, scored=replace(member.scored, also_on=said))
 

@@ -96,19 +96,19 @@ def judge(
 ) -> Judgement:
     """refines: says what of the model a candidate refines, None where it is a cause of its own."""
     if len(problem.blocks) < 2:
-        return _nothing(
+        return _nothing_claimed(
             "not_testable",
             f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
             "predicts a test that it was not fitted to, so at least two are needed",
         )
     if selection is None:
-        return _nothing("not_testable", "no effect of the library fits the channels that were logged")
+        return _nothing_claimed("not_testable", "no effect of the library fits the channels that were logged")
     members = [Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members]
     judged = _beside_each_other([_or_a_mode(member, refines) for member in members])
     found = concluded(problem, selection, measure, judged)
     if found.verdict not in ("unknown", "none") or found.likely:
         return found
-    return replace(found, likely=_nearly(selection, measure, problem.unit, refines))
+    return replace(found, likely=_nearly_claimed(selection, measure, problem.unit, refines))
 
 
 def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
@@ -134,7 +134,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
         rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
         if rest <= limit:
-            enough = _enough(rest, limit, problem.unit, measure)
+            enough = _why_no_cause_is_missing(rest, limit, problem.unit, measure)
             return Judgement("refine" if kept else "none", (), kept, judged, enough, likely=_likely(maybe, ()))
     best = selection.first.ranked[0]
     if own:
@@ -142,7 +142,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
-        f"{short(left)} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
+        f"{short(left)} {problem.unit} remain on left-out tests, {_beside_the_floor(left, measure.floor)}, and nothing "
         f"logged may be named for them{because}"
     )
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
@@ -197,7 +197,7 @@ def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ..
     return tuple(sorted(others, key=lambda j: -probability(j.scored))[: MOST_CLAIMS - len(claims)])
 
 
-def _nearly(
+def _nearly_claimed(
     selection: Selection, measure: Measure, unit: str, refines: Callable[[Scored], str | None]
 ) -> tuple[Judged, ...]:
     """The likeliest of what was dropped for one rule alone that other tests may outweigh."""
@@ -211,7 +211,7 @@ def _nearly(
     return ()
 
 
-def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
+def _why_no_cause_is_missing(rest: float, limit: float, unit: str, measure: Measure) -> str:
     """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
     return (
         f"the error on left-out tests, {short(rest)} {unit}, is {in_percent(rest / measure.spread)} of the response, "
@@ -221,13 +221,13 @@ def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
     )
 
 
-def _against(left: float, floor: float) -> str:
+def _beside_the_floor(left: float, floor: float) -> str:
     if left <= floor:
         return f"no more than the floor of {short(floor)}, but much of them goes with what is logged"
     return f"above the floor of {short(floor)}"
 
 
-def _nothing(verdict: Verdict, reason: str) -> Judgement:
+def _nothing_claimed(verdict: Verdict, reason: str) -> Judgement:
     return Judgement(verdict, (), (), (), reason)
 
 
@@ -260,7 +260,7 @@ def causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
 
 def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
     """The candidates that the data can't tell from the chosen one."""
-    return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
+    return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _equally_good(chosen, s)]
 
 
 def sound_twins(selection: Selection, measure: Measure, unit: str) -> dict[int, list[Scored]]:
@@ -276,7 +276,7 @@ def sound_twins(selection: Selection, measure: Measure, unit: str) -> dict[int, 
     }
 
 
-def _alike(one: Scored, other: Scored) -> bool:
+def _equally_good(one: Scored, other: Scored) -> bool:
     """Whether they act alike, or tests would have to be drawn again to tell which predicts left-out ones better."""
     cosine = abs(float(one.shape @ other.shape))
     if cosine <= ALIKE_AT_ALL:

@@ -65,15 +65,15 @@ def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored]
     the claims. Asked are the locked tests in which a claim acts: another one says how well the rest of the model is
     known, and nothing of the claims. Errors of 0 where there is none."""
     tests = np.arange(opened)
-    beside, _ = _with(problem, tests, noise, kept)
+    beside, _ = _with_effects_as_open(problem, tests, noise, kept)
     without = known(beside, noise)
-    with_claims, acts = _with(beside, tests, noise, claims)
+    with_claims, acts = _with_effects_as_open(beside, tests, noise, claims)
     locked = [i for i in range(opened, len(problem.blocks)) if acts[i] or not claims]
     keys = frozenset(problem.blocks[i].test.key for i in locked)
     if not locked:
         return Foretold(0.0, 0.0, 0.0, tests=keys)
     among = known(with_claims, noise)
-    before, after = _left(without, tests, locked), _left(among, tests, locked)
+    before, after = _residuals_left(without, tests, locked), _residuals_left(among, tests, locked)
     asked = np.concatenate([tests, locked]).astype(np.int64)
     gained = _log_probability(among, asked, tests) - _log_probability(without, asked, tests)
     return Foretold(
@@ -87,7 +87,9 @@ def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored]
     )
 
 
-def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]) -> tuple[Problem, Bool1D]:
+def _with_effects_as_open(
+    problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
+) -> tuple[Problem, Bool1D]:
     """(each effect as the open tests have it, beside those before it; whether one of them acts in each test)."""
     acts = np.zeros(len(problem.blocks), dtype=np.bool_)
     for one in chosen:
@@ -103,13 +105,13 @@ def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
     return problem, acts
 
 
-def _left(base: Known, tests: Int1D, locked: Sequence[int]) -> list[Float1D]:
+def _residuals_left(base: Known, tests: Int1D, locked: Sequence[int]) -> list[Float1D]:
     """Of each locked test, what the coefficients of the open ones leave."""
     theta = base.mean(tests)
-    return [_one(base.problem, i, theta) for i in locked]
+    return [_residual_of_test(base.problem, i, theta) for i in locked]
 
 
-def _one(problem: Problem, test: int, theta: Float1D) -> Float1D:
+def _residual_of_test(problem: Problem, test: int, theta: Float1D) -> Float1D:
     block = problem.blocks[test]
     return np.asarray(block.response - np.hstack([block.base, block.slack]) @ theta)
 

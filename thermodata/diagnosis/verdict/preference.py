@@ -141,7 +141,7 @@ def read_alone(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
 
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
-    better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
+    better = (_drove_out(own, best, ranking) or _is_clearly_likelier(best, own)) and _foretells_more(best, own)
     return better or is_its_name(own, best) or _at_once(own, best) or _is_cause_of_mode(own, best)
 
 
@@ -170,5 +170,5 @@ def _foretells_more(best: Scored, own: Scored) -> bool:
     return best.drop > own.drop or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)
 
 
-def _clearly(best: Scored, own: Scored) -> bool:
+def _is_clearly_likelier(best: Scored, own: Scored) -> bool:
     return best.columns is not own.columns and own.evidence < NAMED_SHARE * best.evidence

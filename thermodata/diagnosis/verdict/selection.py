@@ -122,7 +122,7 @@ def any_stands_out(
         return False
     full = beside(problem, selection.together)
     beside_all = rank_in(full, without(some, selection.together), selection.noise, left_out=False)
-    found = (in_noise_of_best(ranked, TRIED) for ranked in (_only(first, some), beside_all))
+    found = (in_noise_of_best(ranked, TRIED) for ranked in (_ranked_among(first, some), beside_all))
     return any(may(s) for one in found if one is not None for s in one.ranked)
 
 
@@ -136,9 +136,11 @@ def _passes(
     passes: list[_Ended] = []
     for number in range(PASSES):
         rest = without(among, [*chosen, *dropped])
-        last = _only(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
+        last = (
+            _ranked_among(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
+        )
         before = len(dropped)
-        _forward(problem, among, chosen, dropped, last)
+        _select_forward(problem, among, chosen, dropped, last)
         noise = likeliest(beside(problem, chosen), noise)
         current = each_beside_others(problem, chosen, noise)
         while unsound := [i for i, s in enumerate(current) if not sound(s)]:
@@ -163,7 +165,7 @@ def _likeliest_of(problem: Problem, passes: Sequence[_Ended]) -> _Ended:
     return passes[best] if likely[best] >= limit else passes[-1]
 
 
-def _forward(
+def _select_forward(
     problem: Problem, pool: Sequence[Columns], chosen: list[Scored], dropped: Sequence[Scored], last: Ranked
 ) -> None:
     """Adds to the chosen while the evidence is worth it. last: the ranking beside them."""
@@ -217,7 +219,7 @@ def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[
     return [found[id(one)] for one in members]
 
 
-def _only(ranked: Ranked, some: Sequence[Columns]) -> Ranked:
+def _ranked_among(ranked: Ranked, some: Sequence[Columns]) -> Ranked:
     kept = {id(c) for c in some}
     return replace(ranked, ranked=tuple(s for s in ranked.ranked if id(s.columns) in kept))
 
@@ -240,7 +242,7 @@ class _Swaps:
         so much better, that warms what it reads, or that is its name. own: `chosen[number]` beside all others."""
         others = [c for i, c in enumerate(chosen) if i != number]
         ranking = rank_in(beside(self.problem, others), without(self.every, others), self.noise)
-        eligible = _only(ranking, self.among)
+        eligible = _ranked_among(ranking, self.among)
         best = preferred(eligible.ranked)
         if best is not None and gives_way(own, best, eligible) and self.sound(best):
             own = _in_place_of(own, best, others)
