@@ -391,13 +391,13 @@ def test_the_best_of_chance_is_against_all_that_was_tried() -> None:
 @pytest.mark.parametrize(("share", "moves"), [(0.99, True), (1.01, False)])
 def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(share: float, moves: bool) -> None:
     """What is as free as its own size, or freer, would be fitted again: it stays as fitted."""
-    from thermodata.diagnosis.weigh.null import _responses
+    from thermodata.diagnosis.weigh.null import _drawn_responses
 
     one = small(cause=0.0)
     large = replace(one, blocks=tuple(replace(b, slack=1e6 * b.slack, base=1e6 * b.base) for b in one.blocks))
     base = known(large, replace(NOISE, share=share))
     fitted = base.white @ base.mean(base.every)
-    away = np.abs(_responses(base, np.random.default_rng(0)) - fitted[:, None]).max()
+    away = np.abs(_drawn_responses(base, np.random.default_rng(0)) - fitted[:, None]).max()
     assert bool(away > 1e4) is moves
 
 

@@ -145,9 +145,9 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 
 def moments(known: Known, columns: Columns) -> Moments:
     """A test each."""
-    (white,) = _whites(known, [columns])
+    (white,) = _whitened_columns(known, [columns])
     parts = [(white[rows], known.both[rows]) for rows in known.space.parts]
-    own = np.stack([_squares(part, columns) for part, _ in parts])
+    own = np.stack([_products_by_point(part, columns) for part, _ in parts])
     cross = np.stack([part.T @ both for part, both in parts]).reshape(len(parts), *columns.whole.shape[1:], -1)
     return Moments(own, cross[..., :-1], cross[..., -1])
 
@@ -158,9 +158,9 @@ def each_of_all(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
     sizes = np.cumsum([one.whole[0].size for one in some])
     for few in np.split(np.arange(len(some)), np.flatnonzero(np.diff(sizes // AT_ONCE)) + 1):
         group = [some[i] for i in few.tolist()]
-        for one, white in zip(group, _whites(known, group), strict=True):
+        for one, white in zip(group, _whitened_columns(known, group), strict=True):
             if id(one) not in kept:  # the same, whatever is known
-                kept[id(one)] = one, _squares(white, one)
+                kept[id(one)] = one, _products_by_point(white, one)
             cross = known.space.product(white, known.both).reshape(*one.whole.shape[1:], -1)
             known.of_all[id(one)] = one, Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
             yield known.of_all[id(one)][1]
@@ -174,13 +174,13 @@ def _of_all(known: Known, columns: Columns) -> Moments:
     return found
 
 
-def _squares(white: Float2D, columns: Columns) -> FloatND:
+def _products_by_point(white: Float2D, columns: Columns) -> FloatND:
     """Products of a candidate's columns at each point, shape (points, c, c)."""
     by_point = white.reshape(-1, *columns.whole.shape[1:]).transpose(1, 0, 2)
     return np.asarray(by_point.transpose(0, 2, 1) @ by_point)
 
 
-def _whites(known: Known, few: Sequence[Columns]) -> list[Float2D]:
+def _whitened_columns(known: Known, few: Sequence[Columns]) -> list[Float2D]:
     """Of each, of all tests, shape (rows, points * c)."""
     return known.space.of_each([(one, one.whole.reshape(len(one.whole), -1)) for one in few])
 
@@ -233,7 +233,7 @@ def of_each_series(known: Known, columns: Columns, series: Float2D, already: Flo
     """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,). already: what is `explained` of
     them."""
     count = series.shape[1]
-    (white,) = _whites(known, [columns])
+    (white,) = _whitened_columns(known, [columns])
     products = _of_all(known, columns)
     left, _ = beyond_known(known, products, known.every)
     right = known.space.product(white, series).reshape(*columns.whole.shape[1:], count)

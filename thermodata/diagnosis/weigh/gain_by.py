@@ -69,7 +69,7 @@ class GainByCondition(ChangedEffect):
 
     def in_test(self, test: TestData) -> InTest:
         """Zero but for the value that the test has."""
-        values, value = [g.name for g in self.effect.gains], _value(self.term, self.by, test)
+        values, value = [g.name for g in self.effect.gains], _condition_value(self.term, self.by, test)
         columns = np.zeros((len(test.t_s), len(values)))
         fitted = self.term.values(test) if value in values else None
         if value in values and fitted is not None and self.term.bound.covers(test) and self.term.bound.has(test):
@@ -86,20 +86,20 @@ class GainByCondition(ChangedEffect):
 
     def in_words(self, scored: Scored) -> str:
         """Without gains: beside effects that may act faster and slower, what an effect does in all is hardly known."""
-        return self._told([f"{' and '.join(self.alike)} part the tests alike"] if self.alike else [])
+        return self._gains_in_words([f"{' and '.join(self.alike)} part the tests alike"] if self.alike else [])
 
     def in_version(self, version: Callable[[], FittedResponse], tests: Sequence[TestData]) -> str | None:
         """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
         term = next((t for t in version().terms if t.id == self.term.id), None)
-        times = {} if term is None else _times(term, [g.name for g in self.effect.gains], tests)
+        times = {} if term is None else _relative_sizes(term, [g.name for g in self.effect.gains], tests)
         if not times:
             return None
         apart = "; " if self.term.bound.spec.gains_by else ", "  # a value of several conditions has commas
         said = apart.join(f"{value} {share:.2g}" for value, share in times.items())
         alike = [f"{' and '.join(self.alike)} part the tests alike"] if self.alike else []
-        return self._told([f"{said} times", *alike])
+        return self._gains_in_words([f"{said} times", *alike])
 
-    def _told(self, more: Sequence[str]) -> str:
+    def _gains_in_words(self, more: Sequence[str]) -> str:
         said = f" ({'; '.join(more)})" if more else ""
         return f"{self.term.id} acts with another gain for each {self.by}{said}"
 
@@ -118,7 +118,7 @@ def gains_by_condition(
         parted: dict[tuple[int, ...], list[str]] = {}
         already = len({term.bound.group(t) for t in mine})
         for by in _conditions([t for t in every if term.bound.covers(t)]):
-            groups = [_value(term, by, t) for t in mine]
+            groups = [_condition_value(term, by, t) for t in mine]
             values = list(dict.fromkeys(groups))
             if already < len(values) <= MOST_VALUES and len(mine) > len(values):
                 parted.setdefault(tuple(values.index(g) for g in groups), []).append(by)
@@ -138,7 +138,7 @@ def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData])
     return _candidate(terms[term], by, (), mine, tests)
 
 
-def _value(term: FittedTerm, by: str, test: TestData) -> str:
+def _condition_value(term: FittedTerm, by: str, test: TestData) -> str:
     """Of a test, within the values that the term has a gain for already: 'M1, T2'; '' where the test says none."""
     own = term.bound.spec
     if any(group_of(test, name) is None for name in (*own.gains_by, by)):
@@ -164,28 +164,28 @@ def _candidate(
 ) -> GainByCondition:
     groups: dict[str, list[TestData]] = {}
     for test in tests:
-        groups.setdefault(_value(term, by, test), []).append(test)
+        groups.setdefault(_condition_value(term, by, test), []).append(test)
     return GainByCondition(
         cast(Effect, GainOfEach(term, tuple(groups))),
         term.binding,
         term.family,
         log_prior=UNNAMED,
         kin="itself",
-        unforetold=_unforetold(term, by, groups, every),
+        unforetold=_why_unforetold(term, by, groups, every),
         term=term,
         by=by,
         alike=alike,
     )
 
 
-def _unforetold(
+def _why_unforetold(
     term: FittedTerm, by: str, groups: Mapping[str, Sequence[TestData]], every: Sequence[TestData]
 ) -> str | None:
     single = {value: some[0] for value, some in groups.items() if len(some) == 1}
     if not single:
         return None
     listed = ", ".join(f"{value} ({test.test})" for value, test in single.items())
-    locked = [t.test for t in every if t.role == "locked" and _value(term, by, t) in single]
+    locked = [t.test for t in every if t.role == "locked" and _condition_value(term, by, t) in single]
     ask = f", or ask the locked {' and '.join(locked)} (thermodata confirm)" if locked else ""
     return (
         f"{by} has values that stand in one test only: {listed}; no other test foretells their gain. Run another test "
@@ -193,7 +193,7 @@ def _unforetold(
     )
 
 
-def _times(term: FittedTerm, values: Sequence[str], tests: Sequence[TestData]) -> dict[str, float]:
+def _relative_sizes(term: FittedTerm, values: Sequence[str], tests: Sequence[TestData]) -> dict[str, float]:
     """What the effect does in the same tests with the gains of each value, by the value with which it does most."""
     known = [t for t in tests if term.bound.covers(t) and term.bound.has(t)]
     does = {}

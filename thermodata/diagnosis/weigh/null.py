@@ -20,7 +20,7 @@ DRAWS = 199  # the smallest p is 0.5 %
 
 def best_of_chance(known: Known, pool: Sequence[Columns], seed: int = 0) -> Float1D:
     """The largest evidence of any candidate on each null response, sorted, shape (`DRAWS`,)."""
-    series = _responses(known, np.random.default_rng(seed))
+    series = _drawn_responses(known, np.random.default_rng(seed))
     already, best = explained(known, series), np.full(DRAWS, -np.inf)
     for one in pool:
         np.maximum(best, of_each_series(known, one, series, already) - one.candidate.log_prior, out=best)
@@ -39,7 +39,7 @@ def in_words(evidence: float, chance: Float1D) -> str:
     return f"chance does as well in {'at most ' if none else ''}{share} of responses in which nothing is missing"
 
 
-def _responses(known: Known, rng: np.random.Generator) -> Float2D:
+def _drawn_responses(known: Known, rng: np.random.Generator) -> Float2D:
     """Whitened, of all tests, shape (rows, DRAWS)."""
     mean = known.mean(known.every)
     # gains as fitted: what is free would be fitted again; how the effects act otherwise, drawn

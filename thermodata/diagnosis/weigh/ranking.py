@@ -69,8 +69,8 @@ def _with_left_out(base: Known, seen: Scored, does: Float1D, white: Float1D) -> 
     alone = np.concatenate([one.whole[rows, point[i]] @ sized[i] for i, rows in enumerate(space.parts)])
     of_all = (sized[:, None] @ products.known.sum(axis=0)[point])[:, 0]
     pulled = solved(base.factor(base.every), of_all.T).T
-    own_before, own_after = _errors(base, np.tile(base.mean(base.every), (len(sized), 1)), pulled, alone)
-    before, after = _errors(base, base.of_others.mean, base.of_others.solved(others.toward), alone)
+    own_before, own_after = _errors_of_left_out(base, np.tile(base.mean(base.every), (len(sized), 1)), pulled, alone)
+    before, after = _errors_of_left_out(base, base.of_others.mean, base.of_others.solved(others.toward), alone)
     size = np.sqrt(space.each(does**2) / space.sizes)
     return replace(
         seen,
@@ -92,7 +92,7 @@ def _evidence(base: Known, one: Columns) -> float:
     return weigh(base, one, products, base.every).total - one.candidate.log_prior
 
 
-def _errors(base: Known, theta: Float2D, pulled: Float2D, does: Float1D) -> tuple[Float1D, Float1D]:
+def _errors_of_left_out(base: Known, theta: Float2D, pulled: Float2D, does: Float1D) -> tuple[Float1D, Float1D]:
     """Squared error of each test without and with the candidate of the others. theta: coefficients of the known effects
     in each, shape (tests, k); pulled: what the candidate takes off these; does: what it does there, shape (rows,)."""
     without = np.concatenate(base.problem.response_blocks) - base.does(theta)
