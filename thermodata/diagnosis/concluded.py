@@ -39,7 +39,7 @@ def concluded(case: Case, left_on_locked: float | None) -> Concluded:
     """left_on_locked: the error on the locked tests, where it is known already."""
     opened = unlocked(case.investigated, case.fits, case.locked)
     investigation, judgement = opened.investigation, opened.judgement
-    confirmation = _confirmed(case, opened) if judgement.claims else None
+    confirmation = _confirmation(case, opened) if judgement.claims else None
     on_locked = False
     if not judgement.claims:
         by_open = parts_offered(judgement, investigation.conclude)
@@ -72,12 +72,12 @@ def concluded(case: Case, left_on_locked: float | None) -> Concluded:
     )
 
 
-def _confirmed(case: Case, opened: Unlocked) -> Confirmation:
+def _confirmation(case: Case, opened: Unlocked) -> Confirmation:
     claims = opened.judgement.claims
     chosen = [c.scored.candidate for c in claims]
     spec, refitted = case.fitted.spec, case.sound.fitted
     found = confirm(spec, case.index, case.data, chosen, case.tests, opened.locked, refitted, case.response)
-    return replace(found, asked=_asked(claims))
+    return replace(found, asked=_tests_asked(claims))
 
 
 def _of_claims(confirmation: Confirmation | None) -> Refit | None:
@@ -86,7 +86,7 @@ def _of_claims(confirmation: Confirmation | None) -> Refit | None:
     return None if made is None else lambda claimed: made
 
 
-def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
+def _tests_asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
     """The keys of the locked tests in which one of them acts; None: all."""
     tests = [c.scored.looked.foretold.tests for c in claims if c.scored.looked is not None]
     found = [t for t in tests if t is not None]

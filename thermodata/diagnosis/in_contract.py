@@ -65,7 +65,7 @@ def in_contract(
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
         left_out_over_s=problem.step_s,
-        rmse_um=alone.left if alone is not None else _left(problem),
+        rmse_um=alone.left if alone is not None else _error_left(problem),
         named_rmse_um=None if found.named is None else float(np.sqrt(np.mean(found.named))),
         modelled_rmse_um=None if found.stands is None else found.stands.left,
         fitted_rmse_um=as_fitted(case.response, case.logged),
@@ -82,13 +82,15 @@ def in_contract(
             advice(outcome, shown[0][0] if shown else None, head, data, terms),
         ),
         response_um=investigation.measure.spread,
-        limits=[] if judgement.claims else [_limit(one, terms, investigation) for one in investigation.limits],
+        limits=[]
+        if judgement.claims
+        else [_detection_limit(one, terms, investigation) for one in investigation.limits],
         at_rest=[] if judgement.claims else _at_rest(investigation.at_rest, data),
         chance=ladder.chance(investigation.measure),
-        responses=_responses(case),
+        responses=_responses_left(case),
         by_choice=by_choice,
         started_on=started_with(case.response, case.logged),
-        locked_unasked=_unasked(case, found),
+        locked_unasked=_locked_unasked(case, found),
         locked_tests=len(case.locked) + len(case.shut),
     )
 
@@ -120,7 +122,7 @@ def _unknown(shown: Sequence[Row], head: Scored | None, found: Concluded, unread
     return characterise(problem, investigation.spots, supposed, unread)
 
 
-def _unasked(case: Case, found: Concluded) -> list[LockedUnasked]:
+def _locked_unasked(case: Case, found: Concluded) -> list[LockedUnasked]:
     """The locked tests that lack what the model reads, and those that lack what is claimed."""
     lacking = list(case.shut)
     held = found.confirmation
@@ -136,7 +138,7 @@ def _put_right(case: Case, found: Concluded) -> PutRight | None:
     return told(mended.model_copy(update={"left_out": [*mended.left_out, *found.turned]}))
 
 
-def _responses(case: Case) -> list[ResponseLeft]:
+def _responses_left(case: Case) -> list[ResponseLeft]:
     shares = shares_left(case.fitted, case.logged)
     return [ResponseLeft(response=r.name, left=left) for r, left in zip(case.fitted.responses, shares, strict=True)]
 
@@ -154,7 +156,7 @@ def _at_rest(found: Sequence[Resting], data: Dataset) -> list[AtRest]:
     ]
 
 
-def _limit(one: Limit, terms: Sequence[str], investigation: Investigation) -> DetectionLimit:
+def _detection_limit(one: Limit, terms: Sequence[str], investigation: Investigation) -> DetectionLimit:
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     evidence = next((s.evidence for s in ranked if s.candidate.id == one.candidate.id), None)
     return DetectionLimit(
@@ -170,7 +172,7 @@ def _limit(one: Limit, terms: Sequence[str], investigation: Investigation) -> De
     )
 
 
-def _left(problem: Problem) -> float | None:
+def _error_left(problem: Problem) -> float | None:
     """The error of the model as it is fitted, where no candidate asked for left-out tests."""
     whole = np.concatenate([b.residual for b in problem.blocks]) if problem.blocks else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

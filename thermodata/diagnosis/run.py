@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 RULES_VERSION = 96
 
 
-def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
+def _answer_key(model: Loaded, left: dict[str, float] | None = None) -> str:
     """What an answer is made from: the model, its data as they are now, the library of effects and its code, the rules,
     and what is known of the locked tests already."""
     library = {name: repr((e.needs, e.params, e.gains)) for name, e in effects().items()}
@@ -65,10 +65,10 @@ def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
 def kept_diagnosis(store: Store, ref: str, response: str | None = None) -> Diagnosis | None:
     """The answer that the store holds to this question; None where model, data, effects or rules have changed since."""
     model = load(store, ref, anew=True)
-    return _kept(store, model, response, _key(model, left_on_locked(store, model)))
+    return _kept_diagnosis(store, model, response, _answer_key(model, left_on_locked(store, model)))
 
 
-def _kept(store: Store, model: Loaded, response: str | None, key: str) -> Diagnosis | None:
+def _kept_diagnosis(store: Store, model: Loaded, response: str | None, key: str) -> Diagnosis | None:
     """What was asked for last is the model's diagnosis, whose ranks `add` takes."""
     from thermodata.store.catalogue.models.findings import kept_answer, load_diagnosis, save_diagnosis
 
@@ -95,8 +95,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
-    key = _key(model, left)
-    kept = _kept(store, model, response, key)
+    key = _answer_key(model, left)
+    kept = _kept_diagnosis(store, model, response, key)
     if kept is not None:
         return kept
     with watched(tell):
@@ -157,8 +157,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     asked = load_diagnosis(store, model.identity) if response is None else None
     index = response_index(model.fitted, tests, asked.response if asked is not None else response)
     of = model.fitted.responses[index]
-    chosen = _chosen(model, of, chosen_id(store, model.identity, candidate, response))
-    name, key = chosen.id, _key(model)
+    chosen = _candidate_named(model, of, chosen_id(store, model.identity, candidate, response))
+    name, key = chosen.id, _answer_key(model)
     whose = of_response(model, of.name)
     question = f"confirm {name}{whose}"
     kept = kept_answer(store, model.identity, question, key)
@@ -167,7 +167,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     usable = [t for t in tests if of.can_predict(t)]
     ends = ends_of_logs(store, model)
     asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
-    locked = _locked(model, of, asked_of.data, tests)
+    locked = _locked_tests(model, of, asked_of.data, tests)
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base, of)
     before = kept_answer(store, model.identity, question)
@@ -216,7 +216,7 @@ def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
     return despite(known.model_copy(update=now))
 
 
-def _locked(model: Loaded, response: FittedResponse, data: Dataset, open_: Sequence[TestData]) -> list[TestData]:
+def _locked_tests(model: Loaded, response: FittedResponse, data: Dataset, open_: Sequence[TestData]) -> list[TestData]:
     """The locked tests that can confirm. UsageError where there is none. data: with the logs put right."""
     closed = model.fitted.tests(data, "locked")
     again = {one.key for one, _ in copies(closed, open_, response.name)}
@@ -272,7 +272,7 @@ def _refuse_again(model: Loaded, response: FittedResponse, effect: str, channels
         )
 
 
-def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
+def _candidate_named(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
     changed(model.fitted.spec, name)  # refuses what `add` would refuse
     if (by := gain_by_of(name)) is not None:
         return named(response, *by, model.data.tests)

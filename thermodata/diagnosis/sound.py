@@ -122,7 +122,7 @@ def _with_ends_right(found: Sound, index: int, ends: Ends, met: Sequence[ClockMo
     logs = compared(found.tests, data.channels, response, data.step_s)
     borne_out = [some for some in alike if meets(some, met) or logs.bears_out(some)]
     clocks = [move for some in alike if some in borne_out or any(is_alike(some, o) for o in borne_out) for move in some]
-    return _moved(found, clocks) if clocks else found
+    return _with_clocks_moved(found, clocks) if clocks else found
 
 
 def _with_ends_told(found: Sound, index: int, ends: Ends) -> Sound:
@@ -131,7 +131,7 @@ def _with_ends_told(found: Sound, index: int, ends: Ends) -> Sound:
     return replace(found, faults=(*found.faults, *ends.artefacts(home, found.put_right.clocks)))
 
 
-def _moved(found: Sound, clocks: Sequence[ClockMoved]) -> Sound:
+def _with_clocks_moved(found: Sound, clocks: Sequence[ClockMoved]) -> Sound:
     """With further clocks moved."""
     keys = {t.key for t in found.tests}
     data = with_clocks_right(found.data, clocks)
@@ -178,4 +178,4 @@ def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     faults += [by_heat(one, tests[0].campaign) for one in late]
     clocks += [move for one in late for move in one.moves()]
     found = replace(found, faults=(*found.faults, *faults), fine=problem)
-    return _moved(found, clocks) if clocks else found
+    return _with_clocks_moved(found, clocks) if clocks else found
