@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.diagnosis import case
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.detection import limits
 from thermodata.diagnosis.question.known import known
 from thermodata.diagnosis.verdict.investigate import Investigation

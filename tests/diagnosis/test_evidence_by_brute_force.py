@@ -16,7 +16,7 @@ from scipy.linalg import block_diag, null_space
 from scipy.special import logsumexp
 from scipy.stats import kstest, multivariate_normal
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question import discrepancy
 from thermodata.diagnosis.question.directions import Weighted, log_evidence
 from thermodata.diagnosis.question.discrepancy import Noise

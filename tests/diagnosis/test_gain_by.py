@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.tell.advising import next_test
 from thermodata.diagnosis.weigh.gain_by import gains_by_condition, named
 from thermodata.effect import effects

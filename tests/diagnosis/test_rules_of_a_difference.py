@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.weigh.difference import is_difference, with_sides
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.grid import grid
-from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.of_library import candidates
 from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.claims.refines import mode_of

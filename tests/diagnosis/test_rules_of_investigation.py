@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.compressed import error_of
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import otherwise, owners, remembered

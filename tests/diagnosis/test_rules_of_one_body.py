@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.locked import unlocking
 from thermodata.diagnosis.locked.confirm import Fits
 from thermodata.diagnosis.locked.one_body import one_body

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict import context as contexts

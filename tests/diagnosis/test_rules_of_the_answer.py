@@ -14,7 +14,7 @@ import pytest
 from thermodata.diagnosis import case, in_contract
 from thermodata.diagnosis import concluded as concluding
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape
 from thermodata.diagnosis.question import responses

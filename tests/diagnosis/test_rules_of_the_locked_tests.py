@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.locked import confirm as confirming

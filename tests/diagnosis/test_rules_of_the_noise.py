@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.chain import MANY, WIDE, Chain, chain_of
 from thermodata.diagnosis.question.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
 from thermodata.diagnosis.question.known import known, likeliest, likeliest_of

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.diagnosis.candidates import basis as module
 from thermodata.diagnosis.candidates.basis import Means, basis, sharing
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.clocks.by_commands import timings
 from thermodata.diagnosis.question.known_effects import remembered
 from thermodata.diagnosis.question.problem import Problem

@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # the tests that stand beside the rules of a module
 BESIDE = {
     "artefact.py": ("steps", "steps_beside_commands", "steps_by_moves"),
+    "candidate_effect.py": ("candidates", "unread_parts"),
     "of_library.py": ("candidates", "unread_parts"),
     "moves.py": ("clocks_in_part",),
     "sides.py": ("clocks_in_part",),
@@ -746,7 +747,7 @@ MUTANTS = [
     diagnosis("kin.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
     diagnosis("of_library.py", "or e.name == STATIC", "", "a gain is asked for twice"),
     diagnosis(
-        "of_library.py",
+        "candidate_effect.py",
         "SLACK_FACTORS = (0.2, 5.0)",
         "SLACK_FACTORS = (0.9, 1.1)",
         "a distributed machine is a missing effect",

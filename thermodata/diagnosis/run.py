@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.by_name import only_by_name
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.failing import without_failing
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.locked.copies import copies

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.case import Case
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.question.present import TIME_UNITS

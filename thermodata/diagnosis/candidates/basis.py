@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.grid import grid
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.plugin import Float2D, Param
 

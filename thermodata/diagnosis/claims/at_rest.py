@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.detection import has_a_name
 from thermodata.effect.places import holds
 from thermodata.view.grid.dataset import ChannelInfo, TestData

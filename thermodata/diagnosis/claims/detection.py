@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.kin import refines
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.probability import sharpness_asked
 from thermodata.diagnosis.claims.rules import STRONG, WORTH_SHARE, WORTH_SIZE
 from thermodata.diagnosis.question.known import Known

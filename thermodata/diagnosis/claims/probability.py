@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
 

@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.warm_at_rest import share_at_rest
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.refines import LITTLE, PART, elsewhere_of, mode_of

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.problem import freed
 from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.scored import ACTS

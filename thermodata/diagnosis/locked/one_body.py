@@ -14,7 +14,7 @@ from itertools import combinations
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.unread import TEMPERATURE
 from thermodata.diagnosis.locked.confirm import Fits, rmse, shape_of
 from thermodata.diagnosis.verdict.judge import Judged, OneBody

@@ -13,7 +13,8 @@ from itertools import combinations
 import numpy as np
 
 from thermodata.diagnosis.candidates.basis import Means, basis, sharing
-from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
+from thermodata.diagnosis.candidates.of_library import candidates
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.question.present import GENERIC, present

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.feedback import feedback_of_axes
-from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.of_library import candidates
 from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.question.present import present

@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates.basis import Means, sharing
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.at_rest import AtRest, at_rest
 from thermodata.diagnosis.claims.detection import Limit, limits
 from thermodata.diagnosis.claims.measure import Measure

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import known, likeliest
 from thermodata.diagnosis.question.problem import Problem

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.measure import GOOD_SHARE, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules import DROP_LIMIT, failed_rules

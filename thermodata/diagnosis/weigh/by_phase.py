@@ -13,7 +13,8 @@ from typing import cast
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
+from thermodata.diagnosis.candidates.candidate_effect import InTest
+from thermodata.diagnosis.candidates.of_library import UNNAMED
 from thermodata.diagnosis.question.known_effects import is_warm
 from thermodata.diagnosis.question.present import TIME_UNITS
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free

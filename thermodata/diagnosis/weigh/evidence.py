@@ -19,7 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates.basis import basis
-from thermodata.diagnosis.candidates.of_library import UNNAMED, CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
+from thermodata.diagnosis.candidates.of_library import UNNAMED
 from thermodata.diagnosis.question.discrepancy import halved
 from thermodata.diagnosis.question.known import FloatND, Known, others_of_each, solved
 from thermodata.diagnosis.question.problem import Problem

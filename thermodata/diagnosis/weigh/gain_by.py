@@ -12,7 +12,8 @@ from typing import cast
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
+from thermodata.diagnosis.candidates.candidate_effect import InTest
+from thermodata.diagnosis.candidates.of_library import UNNAMED
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.weigh.scored import ACTS, Scored
 from thermodata.errors import unknown_name

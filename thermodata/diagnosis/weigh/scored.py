@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.weigh.beyond_noise import fall_beyond
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.plugin import Bool1D, Float1D

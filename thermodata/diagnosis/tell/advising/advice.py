@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import P_LIMIT, rules
 from thermodata.diagnosis.tell.advising import next_test

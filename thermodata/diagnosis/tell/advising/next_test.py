@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.problem import MIN_ROWS
 from thermodata.diagnosis.tell.advising.bare import to_log
 from thermodata.diagnosis.tell.advising.worked import Worked

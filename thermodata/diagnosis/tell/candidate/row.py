@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.unread import motors_of, reads
 from thermodata.diagnosis.claims.probability import elsewhere, of_either, probability
 from thermodata.diagnosis.tell.candidate import ladder

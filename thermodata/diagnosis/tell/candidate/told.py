@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell.listing.advised import against_adding
 from thermodata.diagnosis.tell.listing.errors_told import as_told, beside_the_model, judged_beside

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.in_words import also_missing, on_locked
 from thermodata.diagnosis.claims.refines import by_kind, not_advised
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, failed_rules

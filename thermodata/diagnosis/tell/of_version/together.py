@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.question.known import known, likeliest
 from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
 from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall, judged_beside
