@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.diagnosis.claims.in_words import in_words, on_locked
-from thermodata.diagnosis.claims.rules import failed_rules
+from thermodata.diagnosis.claims.rules_together import failed_rules
 from thermodata.diagnosis.locked.held import RISES_ELSEWHERE
 from thermodata.diagnosis.tell.candidate.why import where_it_acts
 from thermodata.diagnosis.weigh.figures import from_to, way

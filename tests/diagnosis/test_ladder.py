@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.claims.rules import blunt, failed_rules
+from thermodata.diagnosis.claims.rules_together import blunt, failed_rules
 from thermodata.diagnosis.tell.candidate.ladder import chance, courses, left_out, rungs
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound

@@ -12,7 +12,8 @@ import pytest
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import at_best, probability, sharpness
-from thermodata.diagnosis.claims.rules import acting_size, blunt, explained, failed_rules
+from thermodata.diagnosis.claims.rules import acting_size, explained
+from thermodata.diagnosis.claims.rules_together import blunt, failed_rules
 from thermodata.diagnosis.verdict.judge import equivalents
 from thermodata.diagnosis.weigh.figures import short
 from thermodata.schema.words.sentences import apart

@@ -12,7 +12,7 @@ import pytest
 from thermodata.diagnosis.claims import other_axes
 from thermodata.diagnosis.claims.other_axes import OtherAxes, beside, is_same
 from thermodata.diagnosis.claims.probability import CLAIMED, may_be_borne_out, probability
-from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError

@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
-from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.locked import confirm as confirming
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape, extended, on_all_open, rmse
 from thermodata.diagnosis.locked.opened import kept_where_they_hold

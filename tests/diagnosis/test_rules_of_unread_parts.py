@@ -15,7 +15,7 @@ from thermodata.diagnosis.claims.probability import (
     probability,
     sharpness_asked,
 )
-from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
 from thermodata.diagnosis.tell.advising.next_test import to_find

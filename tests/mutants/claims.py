@@ -61,6 +61,7 @@ BESIDE = {
     "responses.py": ("the_answer",),
     "probability.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "rules.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
+    "rules_together.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
     "context.py": ("selection",),
@@ -321,13 +322,17 @@ MUTANTS = [
     diagnosis("measure.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.3", "a rough model that lacks nothing is unknown"),
     limit("PLAUSIBLE = 0.3", "PLAUSIBLE = 0.64", "nothing is missing beside what may be the cause"),
     limit("PLAUSIBLE = 0.3", "PLAUSIBLE = 0.1", "what is no cause makes that nothing is missing unsure"),
-    diagnosis("rules.py", " >= PLAUSIBLE or halves(alone, left)", " >= PLAUSIBLE", "what takes half is nothing"),
+    diagnosis(
+        "rules_together.py", " >= PLAUSIBLE or halves(alone, left)", " >= PLAUSIBLE", "what takes half is nothing"
+    ),
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
-    diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
-    diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"),
+    diagnosis("rules_together.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
+    diagnosis(
+        "rules_together.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"
+    ),
     diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
     diagnosis("judge.py", "left > measure.noises and any(is_plain", "any(is_plain", "noise is plain"),
-    diagnosis("rules.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),
+    diagnosis("rules_together.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),
     diagnosis("probability.py", "0.0 if scored.looked is None else", "0.0 if True else", "locked tests weigh nothing"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.6", "the lock stays shut on what is likely"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.3", "the lock is opened for what is not likely"),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
-from thermodata.diagnosis.claims.rules import surely
+from thermodata.diagnosis.claims.rules_together import surely
 from thermodata.diagnosis.question.once import each_once
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.weigh.scored import Scored

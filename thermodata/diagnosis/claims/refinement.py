@@ -17,7 +17,8 @@ from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
 from thermodata.diagnosis.candidates.warm_at_rest import share_at_rest
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.refines import LITTLE, PART, elsewhere_of, mode_of
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import known
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm, owners

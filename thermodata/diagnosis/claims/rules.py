@@ -8,16 +8,14 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.claims.broken import too_few, too_little, unlike
-from thermodata.diagnosis.claims.in_words import in_short
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
+from thermodata.diagnosis.claims.probability import limit_of, probability, sharpness
 from thermodata.diagnosis.question.present import CONTROL
 from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.agreed.limits import PLAUSIBLE
-from thermodata.schema.words.sentences import apart, beside, in_percent
+from thermodata.schema.words.sentences import beside, in_percent
 
 P_LIMIT = 0.01
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
@@ -36,8 +34,6 @@ WORTH_SHARE = 0.1  # of the response: less is not worth a name,
 # unless what is as probable as a claim asks does so much of the response, by a gain that differs so little between
 # tests: then the known effects take for their own what it does, and the error hardly shows it
 WORTH_SIZE, WORTH_SPREAD = 0.2, 0.2
-PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
-HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,58 +221,6 @@ def _percent_of(part: float, whole: float) -> str:
 def _does_much(scored: Scored, measure: Measure) -> bool:
     """Whether it does much of the response, and surely so."""
     return scored.spread <= WORTH_SPREAD and acting_size(scored) >= WORTH_SIZE * measure.spread
-
-
-def surely(scored: Scored) -> Rule:
-    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise; what stands
-    in for it has its slow shape alone."""
-    sure, limit = probability(scored), limit_of(scored)
-    return Rule(
-        "probability",
-        "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
-        "beside something sharper, whether it reads a body that makes no heat, the tool, what holds the probes, "
-        "or what the model reads with others, whether another part may be it, "
-        "whether another axis misses it as well, and what the locked tests say",
-        sure,
-        limit,
-        "least",
-        sure >= limit,
-        f"causes like it were right in {apart(sure, limit)} of cases only ({beside(sure, limit)}): {in_short(scored)}",
-    )
-
-
-def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
-    """The rules that a candidate fails, as sentences; none where it is sound."""
-    failed = [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
-    return [why for why in [scored.candidate.unforetold] if why] + failed
-
-
-def blunt(scored: Scored) -> str | None:
-    """Why a sound candidate is still no cause; None where it may be claimed."""
-    rule = surely(scored)
-    return None if rule.holds else rule.fails
-
-
-def halves(scored: Scored, left: float) -> bool:
-    """Whether it leaves half of the error of left-out tests, each alike. left: that error without it."""
-    return bool(len(scored.rows)) and scored.error_of_all <= HALVES * left
-
-
-def contradicts(scored: Scored, alone: Scored, left: float) -> bool:
-    """Whether nothing can't be said to be missing beside it. alone: as it was chosen. left: the error of left-out tests
-    without it, where that is more than noise."""
-    return probability(scored) >= PLAUSIBLE or halves(alone, left)
-
-
-def is_plain(scored: Scored) -> bool:
-    """Whether its evidence alone says that something is missing, though a rule forbids that it be named."""
-    own = scored.candidate.kin not in ("same", "heat") and not scored.candidate.within
-    return own and sharpness(scored) >= PLAIN
-
-
-def may_be_claimed(scored: Scored, measure: Measure, unit: str) -> bool:
-    """Whether it is sound, and likely; what it refines is another question."""
-    return not failed_rules(scored, measure, unit) and may_be_confirmed(scored)
 
 
 def _follows_anything_slow(scored: Scored) -> bool:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.diagnosis.claims.rules import HALVES
+from thermodata.diagnosis.claims.rules_together import HALVES
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.modelling.terms.rms import rms_about_means
 from thermodata.modelling.versions.with_claims import is_fit_with_claims

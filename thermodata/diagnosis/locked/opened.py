@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from thermodata.diagnosis.claims.probability import limit_of, probability
-from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
 from thermodata.diagnosis.verdict.preference import UNNAMED, is_its_name
 from thermodata.diagnosis.weigh.figures import from_to

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from thermodata.diagnosis.claims.rules import may_be_claimed
+from thermodata.diagnosis.claims.rules_together import may_be_claimed
 from thermodata.diagnosis.locked.confirm import Fits
 from thermodata.diagnosis.locked.one_body import one_body
 from thermodata.diagnosis.locked.opened import kept_where_they_hold

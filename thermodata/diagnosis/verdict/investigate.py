@@ -16,7 +16,7 @@ from thermodata.diagnosis.claims.detection import Limit, limits
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import at_best, limit_of, may_be_borne_out
 from thermodata.diagnosis.claims.refinement import Refinement
-from thermodata.diagnosis.claims.rules import failed_rules
+from thermodata.diagnosis.claims.rules_together import failed_rules
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed, error_of
 from thermodata.diagnosis.question.known import Known, known
 from thermodata.diagnosis.question.known_effects import owners, remembered

@@ -12,7 +12,8 @@ from thermodata.diagnosis.claims.measure import FLOOR_SHARE, Measure
 from thermodata.diagnosis.claims.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.claims.refinement import is_surely_missing
 from thermodata.diagnosis.claims.refines import PART
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, blunt, contradicts, failed_rules, halves, is_plain, rules
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, rules
+from thermodata.diagnosis.claims.rules_together import blunt, contradicts, failed_rules, halves, is_plain
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.selection import Selection

@@ -11,7 +11,8 @@ import numpy as np
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.measure import GOOD_SHARE, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
-from thermodata.diagnosis.claims.rules import DROP_LIMIT, failed_rules
+from thermodata.diagnosis.claims.rules import DROP_LIMIT
+from thermodata.diagnosis.claims.rules_together import failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.figures import from_to

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.rules import Rule, rules, surely
+from thermodata.diagnosis.claims.rules import Rule, rules
+from thermodata.diagnosis.claims.rules_together import surely
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Float1D

@@ -5,7 +5,8 @@ from __future__ import annotations
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.in_words import also_missing, on_locked
 from thermodata.diagnosis.claims.refines import by_kind, not_advised
-from thermodata.diagnosis.claims.rules import LEAST_TESTS, failed_rules
+from thermodata.diagnosis.claims.rules import LEAST_TESTS
+from thermodata.diagnosis.claims.rules_together import failed_rules
 from thermodata.diagnosis.tell.candidate.ladder import of_probability
 from thermodata.diagnosis.tell.candidate.of_claim import (
     also_of_motor,

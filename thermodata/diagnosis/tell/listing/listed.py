@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.claims.probability import probability
-from thermodata.diagnosis.claims.rules import blunt, explained
+from thermodata.diagnosis.claims.rules import explained
+from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
 from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall
 from thermodata.diagnosis.tell.listing.stated import Row, among, causes, is_judged_beside, likeliest, stated
