@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.clocks.by_heat import is_around
+from thermodata.diagnosis.clocks.logs_compared import is_around
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.sensors import loose
 from thermodata.effect.lag import lag

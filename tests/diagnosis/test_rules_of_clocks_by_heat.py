@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.clocks import by_heat as clocks_by_heat
-from thermodata.diagnosis.clocks.by_heat import as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks import logs_compared
+from thermodata.diagnosis.clocks.by_heat import as_artefact, late_in_one, late_logs
 from thermodata.diagnosis.clocks.heat_balance import Disagreement, Pair
+from thermodata.diagnosis.clocks.logs_compared import compared
 from thermodata.diagnosis.clocks.timings import Timing
 from thermodata.diagnosis.sound import not_refuted
 from thermodata.diagnosis.steps.commanded import is_command
@@ -317,7 +318,7 @@ def test_heat_bears_out_that_a_log_stands_elsewhere(
 def test_a_third_of_what_is_left_goes_where_a_log_was_moved(
     moved: float, borne_out: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clocks_by_heat, "either", lambda *_: (0.1, moved))
+    monkeypatch.setattr(logs_compared, "either", lambda *_: (0.1, moved))
     logs = compared(logged(), CHANNELS, "dZ", STEP_S)
     assert logs.bears_out([ClockMoved(source="nc", campaign="c", test="t2", moved_s=-1560.0)]) is borne_out
 

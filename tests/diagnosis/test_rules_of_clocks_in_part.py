@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.clocks.by_commands import timings
-from thermodata.diagnosis.clocks.by_heat import Late, Logs, as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks.by_heat import as_artefact, late_in_one, late_logs
+from thermodata.diagnosis.clocks.logs_compared import Late, Logs, compared
 from thermodata.diagnosis.clocks.moves import moved
 from thermodata.diagnosis.clocks.sides import Key, ShiftedPart, Sides, in_order, in_words, part_of
 from thermodata.diagnosis.clocks.timings import Timing

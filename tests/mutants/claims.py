@@ -19,6 +19,7 @@ BESIDE = {
     "by_commands.py": ("clocks_by_commands",),
     "as_modelled.py": ("what_is_modelled",),
     "by_heat.py": ("clocks_by_heat", "clocks_in_part"),
+    "logs_compared.py": ("clocks_by_heat", "clocks_in_part"),
     "copies.py": ("copies",),
     "difference.py": ("a_difference",),
     "once.py": ("copies",),
@@ -935,14 +936,14 @@ MUTANTS = [
     diagnosis("heat_balance.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),
     diagnosis("heat_balance.py", "TWO_HOURS_S, ABOUT_S = 7200.0", "TWO_HOURS_S, ABOUT_S = 0.0", "two hours pass"),
     diagnosis("heat_balance.py", "around[rows])", "around[rows, :0])", "the air moves a clock"),
-    diagnosis("by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 1.1", "a log switched on late is moved"),
-    diagnosis("by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 0.6", "a wrong clock stays where it is"),
+    diagnosis("logs_compared.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 1.1", "a log switched on late is moved"),
+    diagnosis("logs_compared.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 0.6", "a wrong clock stays where it is"),
     diagnosis("ends_of_logs.py", "self.late, -self.shift_s", "self.late, self.shift_s", "a late log is moved later"),
     diagnosis("ends_of_logs.py", "tests[0] == tests[1] and", "", "logs of other tests are moved together"),
     diagnosis("judge.py", "(*OUTWEIGHED, *few)", "OUTWEIGHED", "one of two tests shuts the lock"),
-    diagnosis("by_heat.py", "if of.warmed == home:", "if False:", "the right log is moved"),
-    diagnosis("by_heat.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
-    diagnosis("by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
+    diagnosis("logs_compared.py", "if of.warmed == home:", "if False:", "the right log is moved"),
+    diagnosis("logs_compared.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
+    diagnosis("logs_compared.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
     diagnosis("by_heat.py", "if 2 * len(", "if len(", "half of the tests are blamed on the others, by heat"),
     diagnosis("by_heat.py", "if f.of.key == one.key]", "if f]", "one test hides another"),
     diagnosis(
@@ -965,14 +966,16 @@ MUTANTS = [
     diagnosis("by_commands.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
     diagnosis("sides.py", "changes <= 1 or", "True or", "a clock that comes and goes in most tests is moved"),
     diagnosis("sides.py", "(more - less >= APART)", "(more >= less)", "what tells neither way speaks for a clock"),
-    diagnosis("by_heat.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
+    diagnosis("logs_compared.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
     diagnosis("timings.py", "abs(t.shift_s + all_s) <=", "abs(t.shift_s) <=", "all are moved for a part"),
     diagnosis("moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
     diagnosis("timings.py", "timing.chance <= CHANCE and", "", "what chance gives moves a clock"),
     diagnosis(
         "by_commands.py", ", float(many ** (-2.0 * max(beyond, 0.0)))", "", "a program that alternates hides a clock"
     ),
-    diagnosis("by_heat.py", "moved - where_it_is >= DECIDES", "False", "the displacement's own log is never late"),
+    diagnosis(
+        "logs_compared.py", "moved - where_it_is >= DECIDES", "False", "the displacement's own log is never late"
+    ),
     diagnosis("timings.py", "late &= from_hour_s <= ABOUT_S", "pass", "any long shift is taken for an hour"),
     diagnosis(
         "by_commands.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"

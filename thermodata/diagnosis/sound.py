@@ -10,10 +10,11 @@ from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.candidates.basis import Means
 from thermodata.diagnosis.clocks.by_commands import timings
-from thermodata.diagnosis.clocks.by_heat import Logs, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.by_heat import as_artefact as by_heat
+from thermodata.diagnosis.clocks.by_heat import late_in_one, late_logs
 from thermodata.diagnosis.clocks.declared import Declared
 from thermodata.diagnosis.clocks.ends_of_logs import UNKNOWN, Ends, is_alike, meets
+from thermodata.diagnosis.clocks.logs_compared import Logs, compared
 from thermodata.diagnosis.clocks.moves import with_clocks_right
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.clocks.timings import Timing, as_artefact

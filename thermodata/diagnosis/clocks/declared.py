@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from thermodata.diagnosis.clocks.by_heat import Late
+from thermodata.diagnosis.clocks.logs_compared import Late
 from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.clocks.beside_air import beside_air
-from thermodata.diagnosis.clocks.by_heat import is_around
+from thermodata.diagnosis.clocks.logs_compared import is_around
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.steps.commanded import is_command
