@@ -12,6 +12,7 @@ import pytest
 
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims import refinement
+from thermodata.diagnosis.claims.known_beside import KnownEffects
 from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
 from thermodata.diagnosis.claims.refinement import Refinement
 from thermodata.diagnosis.claims.refines import PART, by_kind, elsewhere_of, mode_of, not_advised
@@ -138,7 +139,7 @@ def test_it_acts_beside_what_is_known_where_that_is_worth_a_quarter_of_what_it_w
     worth: float, expected: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told = iter([100.0 * worth, 100.0])
-    monkeypatch.setattr(Refinement, "_cost", lambda *_: next(told))
+    monkeypatch.setattr(KnownEffects, "cost", lambda *_: next(told))
     assert said(cause("heat", name="known0", after=0.1, evidence=900.0)) == expected
 
 
@@ -266,7 +267,7 @@ def replacing(
 ) -> str | None:
     """alone, beside: log evidence that dropping the known effect costs, without and with the candidate."""
     asked = Refinement(model("feed_x"), world(100.0), NOISE)
-    monkeypatch.setattr(Refinement, "_cost", lambda self, problem, term: alone if problem is asked.problem else beside)
+    monkeypatch.setattr(KnownEffects, "cost", lambda self, problem, term: alone if problem is asked.problem else beside)
     contribution = cosine * WAVE + np.sqrt(1 - cosine**2) * OTHER
     return asked(scored(**{"family": "generic", "contribution": [contribution] * 3, "after": 0.5, **of}))
 
@@ -306,7 +307,7 @@ def test_what_sits_at_its_place_takes_it_however_poor_the_model_is(monkeypatch: 
     for kin, expected in (("near", PLACE), ("related", None)):
         asked = Refinement(model("feed_x"), world(1.0), NOISE)
         monkeypatch.setattr(
-            Refinement, "_cost", lambda self, problem, term, whole=asked.problem: 100.0 if problem is whole else 1.0
+            KnownEffects, "cost", lambda self, problem, term, whole=asked.problem: 100.0 if problem is whole else 1.0
         )
         assert asked(scored(kin=kin, contribution=[WAVE] * 3, after=0.5)) == expected
 
@@ -323,7 +324,7 @@ def test_the_cost_of_an_effect_is_asked_in_earnest() -> None:
     one = problem(*[both] * 3)
     asked = Refinement(model("feed_x", "feed_y"), one, NOISE)
     twin = scored(contribution=[100 * WAVE] * 3, after=0.5, family="generic")
-    assert asked._cost(one, 0) > 1000.0
+    assert asked.known.cost(one, 0) > 1000.0
     assert asked(twin) == "it takes the place of term0"
     assert asked(scored(contribution=[100 * OTHER] * 3, after=0.5, family="generic")) == "it takes the place of term1"
     assert asked(scored(contribution=[100 * (WAVE + OTHER)] * 3, after=0.5, family="generic")) is None
@@ -335,7 +336,7 @@ def test_an_effect_is_dropped_with_its_time_constants_and_what_was_added_stays()
     base, slack = np.arange(4.0) + np.zeros((ROWS, 4)), np.arange(5.0) + np.zeros((ROWS, 5))
     one = problem(*[Parts(WAVE, base=base, slack=slack)] * 2)
     asked = Refinement(fitted, one, NOISE)  # type: ignore[arg-type]
-    first, second = (asked._problem_without(one, term).blocks[0] for term in (0, 1))
+    first, second = (asked.known.without(one, term).blocks[0] for term in (0, 1))
     assert (first.base[0].tolist(), first.slack[0].tolist()) == ([2.0, 3.0], [4.0])
     assert (second.base[0].tolist(), second.slack[0].tolist()) == ([0.0, 1.0, 3.0], [0.0, 1.0, 2.0, 3.0, 4.0])
 

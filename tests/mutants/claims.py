@@ -25,6 +25,7 @@ BESIDE = {
     "once.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
+    "known_beside.py": ("refinement", "what_the_air_warms"),
     "refinement.py": ("refinement", "what_the_air_warms"),
     "warm_at_rest.py": ("candidates", "what_the_air_warms"),
     "changes.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
@@ -848,7 +849,7 @@ MUTANTS = [
         ("tests/diagnosis/test_answer.py",),
     ),
     diagnosis(
-        "refinement.py", "if not does[rows].any():", "if False:", "a test without the channel hides what it follows"
+        "known_beside.py", "if not does[rows].any():", "if False:", "a test without the channel hides what it follows"
     ),
     Mutant(
         "thermodata/diagnosis/sound.py",

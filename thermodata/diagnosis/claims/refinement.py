@@ -8,29 +8,28 @@ time constants.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
 from thermodata.diagnosis.candidates.warm_at_rest import share_at_rest
+from thermodata.diagnosis.claims.known_beside import KnownEffects
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.refines import LITTLE, PART, elsewhere_of, mode_of
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size
 from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import known
-from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm, owners
+from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.question.present import GENERIC
-from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.rms import rms
-from thermodata.plugin import Float1D, Int1D
+from thermodata.plugin import Float1D
 
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
@@ -51,7 +50,6 @@ HALF = 0.5
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
-ALONE = 1e-4  # a column that the others make but for this share says nothing of its own
 EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
 # nor does the machine move by this share of what the candidate does, in a quarter of the tests in which the known
 # effect does less than the candidate
@@ -69,10 +67,9 @@ class Refinement:
         noise: Noise,
         twins: Mapping[int, Sequence[Scored]] | None = None,
     ) -> None:
-        self.fitted, self.problem, self.noise, self.twins = fitted, problem, noise, twins or {}
-        self.owners = tuple(np.array(o, dtype=np.int64) for o in owners(fitted))
+        self.fitted, self.problem, self.twins = fitted, problem, twins or {}
+        self.known = KnownEffects(fitted, problem, noise)
         self.tests = list({b.test.key: b.test for b in problem.blocks}.values())
-        self._worth: dict[int, float] = {}
 
     def __call__(self, scored: Scored) -> str | None:
         """What it refines of the model, in words."""
@@ -93,7 +90,7 @@ class Refinement:
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
             return self._named_as_mode(scored)
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
-        largest = max(self._size(i) for i in range(len(self.fitted.terms)))
+        largest = max(self.known.size(i) for i in range(len(self.fitted.terms)))
         # what is surely a cause is one, however small beside its kin
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
             return LITTLE if kin in ("near", "related") else self._named_as_mode(scored)
@@ -137,52 +134,19 @@ class Refinement:
 
     def _is_kept(self, scored: Scored, term: int) -> bool:
         """Whether a known effect is worth as much beside it."""
-        return self._cost(beside(self.problem, [scored]), term) >= KEPT * self._worth_alone(term)
-
-    def _worth_alone(self, term: int) -> float:
-        if term not in self._worth:
-            self._worth[term] = self._cost(self.problem, term)
-        return self._worth[term]
+        return self.known.cost(beside(self.problem, [scored]), term) >= KEPT * self.known.worth(term)
 
     def _replaces(self, scored: Scored, term: int) -> bool:
-        alone = self._worth_alone(term)
-        if alone < WORTH or self._likeness(scored, term) < LIKE:
+        alone = self.known.worth(term)
+        if alone < WORTH or self.known.likeness(scored, term) < LIKE:
             return False
-        return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
+        return self.known.cost(beside(self.problem, [scored]), term) < REPLACED * alone
 
     def _like_its_family(self, scored: Scored) -> bool:
         """Whether it acts at all like a known effect of its family."""
         family = scored.candidate.family
         own = [number for number, term in enumerate(self.fitted.terms) if term.family == family]
-        return any(self._likeness(scored, number) >= AT_ALL_LIKE for number in own)
-
-    def _cost(self, problem: Problem, term: int) -> float:
-        """Log evidence that dropping a known effect costs."""
-        return (
-            known(problem, self.noise).log_evidence
-            - known(self._problem_without(problem, term), self.noise).log_evidence
-        )
-
-    def _problem_without(self, problem: Problem, term: int) -> Problem:
-        base, spare = (_columns_of_others(o, term) for o in self.owners)
-        blocks = []
-        for b in problem.blocks:
-            added = np.arange(len(self.owners[0]), b.base.shape[1]), np.arange(len(self.owners[1]), b.slack.shape[1])
-            blocks.append(
-                replace(
-                    b,
-                    base=b.base[:, np.concatenate([base, added[0]])],
-                    slack=b.slack[:, np.concatenate([spare, added[1]])],
-                )
-            )
-        return replace(problem, blocks=tuple(blocks))
-
-    def _likeness(self, scored: Scored, term: int) -> float:
-        """Cosine, without sign, of what the candidate and a known effect do."""
-        own = scored.columns.does(scored.weighed)
-        theirs = np.concatenate([self._contribution(b, term) for b in self.problem.blocks])
-        size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
-        return abs(float(own @ theirs)) / size if size > 0 else 0.0
+        return any(self.known.likeness(scored, number) >= AT_ALL_LIKE for number in own)
 
     def _air_that_warms_it(self, scored: Scored) -> str | None:
         """The effect of the air that a single temperature follows. The air warms all that stands in it, each body in
@@ -201,7 +165,7 @@ class Refinement:
         for number, term in enumerate(self.fitted.terms):
             if term.family != AIR:
                 continue
-            share = self._share_by(scored, number)
+            share = self.known.share_of(scored, number)
             at_rest = share_at_rest(channels[0], self.tests) if HALF <= share < FOLLOWS else None
             if share >= FOLLOWS or (at_rest is not None and at_rest >= HALF):
                 return term.id
@@ -211,42 +175,13 @@ class Refinement:
         """Whether it is a temperature, in whichever tests it is logged."""
         return any(is_warm(test, name) for test in self.tests)
 
-    def _share_by(self, scored: Scored, term: int) -> float:
-        """How much of the square of what a candidate does the columns of a known effect make, one gain each."""
-        does, own, theirs = scored.columns.does(scored.weighed), [], []
-        for block, rows in zip(self.problem.blocks, self.problem.parts, strict=True):
-            if not does[rows].any():  # where its channel is not logged nothing is known of it
-                continue
-            known_to_act = [
-                c[:, : len(o)][:, o == term] for c, o in zip((block.base, block.slack), self.owners, strict=True)
-            ]
-            columns = np.column_stack(known_to_act)
-            own.append(does[rows] - does[rows].mean())
-            theirs.append(columns - columns.mean(axis=0))
-        if not own:
-            return 0.0
-        y, x = np.concatenate(own), np.concatenate(theirs)
-        size = np.linalg.norm(x, axis=0)
-        x = x[:, size > 0] / size[size > 0]
-        left = y - x @ np.linalg.lstsq(x, y, rcond=ALONE)[0]
-        return 1.0 - float(left @ left) / float(y @ y)
-
-    def _contribution(self, block: Block, term: int) -> Float1D:
-        gains = len(self.fitted.terms[term].effect.gains)
-        own = np.flatnonzero(self.owners[0] == term)[:gains]
-        return np.asarray(block.base[:, own].sum(axis=1))
-
-    def _size(self, term: int) -> float:
-        """RMS of what a known effect does, as fitted, in its largest test."""
-        return max(rms([self._contribution(b, term)]) for b in self.problem.blocks)
-
     def _other_zero(self, scored: Scored, term: int) -> str | None:
         channels = scored.candidate.channels
         if self.fitted.terms[term].family == AIR or not _reads_surroundings(scored.candidate):
             return None
         if len(channels) != 1 or not self._is_warm(channels[0]):
             return None
-        if acting_size(scored) >= SMALL * self._size(term):
+        if acting_size(scored) >= SMALL * self.known.size(term):
             return None
         alike, does = [], scored.columns.does(scored.weighed)
         for block, rows in zip(self.problem.blocks, self.problem.parts, strict=True):
@@ -265,9 +200,9 @@ class Refinement:
         others = [n for n in range(len(self.fitted.terms)) if n != term]
         shares = []
         for block, own in zip(self.problem.blocks, candidate, strict=True):
-            does = self._contribution(block, term)
+            does = self.known.contribution(block, term)
             if own.std() >= does.std() and own.any():
-                left = block.response - sum((self._contribution(block, n) for n in others), np.zeros(len(own)))
+                left = block.response - sum((self.known.contribution(block, n) for n in others), np.zeros(len(own)))
                 shares.append(float(left.std() / own.std()))
         return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
 
@@ -294,7 +229,3 @@ def _takes_away(own: Float1D, theirs: Float1D) -> bool:
     if size == 0 or not own.any():
         return False
     return product / np.sqrt(size * float(own @ own)) < OPPOSITE and SHARE[0] <= -product / size <= SHARE[1]
-
-
-def _columns_of_others(owned: Int1D, term: int) -> Int1D:
-    return np.flatnonzero(owned != term)
