@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked, shape_left_on_locked
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.store.catalogue.models import findings

@@ -18,7 +18,7 @@ from thermodata.diagnosis.verdict import investigate as investigating
 from thermodata.diagnosis.verdict import on_locked as locking
 from thermodata.diagnosis.verdict.inquiry import Given, Inquiry
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
-from thermodata.diagnosis.verdict.judge import Judged
+from thermodata.diagnosis.verdict.judged import Judged
 from thermodata.diagnosis.verdict.selection import Member, Selection
 from thermodata.diagnosis.weigh.evidence import Columns
 from thermodata.diagnosis.weigh.foretold import Foretold

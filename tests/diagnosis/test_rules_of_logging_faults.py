@@ -20,7 +20,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.verdict.faults import that_nothing_missing_makes
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.grid.dataset import ChannelInfo, TestData

@@ -16,7 +16,7 @@ from thermodata.diagnosis.locked import unlocking
 from thermodata.diagnosis.locked.confirm import Fits
 from thermodata.diagnosis.locked.one_body import one_body
 from thermodata.diagnosis.question.present import GENERIC
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, OneBody
+from thermodata.diagnosis.verdict.judged import Judged, Judgement, OneBody
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model

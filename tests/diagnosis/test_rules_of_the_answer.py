@@ -23,7 +23,7 @@ from thermodata.diagnosis.sound import Sound
 from thermodata.diagnosis.tell.candidate import told as told_module
 from thermodata.diagnosis.unlogged import unexplained
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, Verdict
+from thermodata.diagnosis.verdict.judged import Judged, Judgement, Verdict
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.verdict.suspect import Suspect
 from thermodata.diagnosis.weigh.foretold import Foretold

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.diagnosis.tell.candidate.of_claim import also_of_motor, heats_its_motor, where_nothing_is_cut
 from thermodata.diagnosis.tell.candidate.row import _unread_places
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need
 from thermodata.view.grid.dataset import ChannelInfo

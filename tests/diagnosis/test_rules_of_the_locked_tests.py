@@ -19,7 +19,7 @@ from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.locked.unlocking import spoilt
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Block, Problem
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.on_locked import foretell
 from thermodata.diagnosis.weigh.evidence import columns
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked

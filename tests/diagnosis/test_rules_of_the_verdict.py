@@ -11,7 +11,8 @@ import pytest
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.refines import PART
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, parts_offered, sound_twins
+from thermodata.diagnosis.verdict.judge import concluded, judge, parts_offered, sound_twins
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.selection import Member, Selection
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.ranking import Ranked

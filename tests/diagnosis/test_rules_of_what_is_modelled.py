@@ -15,7 +15,7 @@ from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.tell.candidate.ladder import rungs
 from thermodata.diagnosis.tell.listing.errors_told import judged_beside
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
 
 from .hand_made import Parts, candidate, measure, problem, scored

@@ -29,7 +29,7 @@ from thermodata.diagnosis.tell.candidate.why import _not_claimed, _of_all
 from thermodata.diagnosis.tell.listing.errors_told import as_told
 from thermodata.diagnosis.unlogged.not_logged import not_logged
 from thermodata.diagnosis.unlogged.unexplained import characterise
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.plugin import Float1D

@@ -13,7 +13,8 @@ from thermodata.diagnosis.tell.of_version.in_version import told_by_versions
 from thermodata.diagnosis.tell.of_version.together import Refit, left_with_named, told_alike
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, parts_offered
+from thermodata.diagnosis.verdict.judge import parts_offered
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.plugin import Float1D
 
 

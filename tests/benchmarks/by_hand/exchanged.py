@@ -18,7 +18,7 @@ from thermodata.diagnosis.question.chain import chain_of
 from thermodata.diagnosis.question.discrepancy import Noise, free_of
 from thermodata.diagnosis.question.known import Known, known
 from thermodata.diagnosis.question.problem import Block, Problem, freed
-from thermodata.diagnosis.verdict.judge import Judged
+from thermodata.diagnosis.verdict.judged import Judged
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.beside import beside, without
 from thermodata.diagnosis.weigh.evidence import Columns, Moments, weigh

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.diagnosis.claims.rules_together import HALVES
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.modelling.terms.rms import rms_about_means
 from thermodata.modelling.versions.with_claims import is_fit_with_claims
 from thermodata.schema.words.sentences import in_percent

@@ -17,7 +17,7 @@ import numpy as np
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.unread import TEMPERATURE
 from thermodata.diagnosis.locked.confirm import Fits, rmse, shape_of
-from thermodata.diagnosis.verdict.judge import Judged, OneBody
+from thermodata.diagnosis.verdict.judged import Judged, OneBody
 from thermodata.diagnosis.verdict.preference import FORETELLS, UNNAMED
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import ThermodataError

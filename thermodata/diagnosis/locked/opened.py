@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules_together import blunt
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
+from thermodata.diagnosis.verdict.judge import causes, equivalents
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.preference import UNNAMED, is_its_name
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Looked

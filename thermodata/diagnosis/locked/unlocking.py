@@ -16,7 +16,7 @@ from thermodata.diagnosis.locked.one_body import one_body
 from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import as_artefacts, turned_locked
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, OneBody
+from thermodata.diagnosis.verdict.judged import Judged, Judgement, OneBody
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.errors import ThermodataError
 from thermodata.schema.answers.diagnosis import Artefact

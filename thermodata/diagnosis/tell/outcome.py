@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.rules import BETTER_LIMIT, SPREAD_LIMIT
 from thermodata.diagnosis.question.known import Known, known, likeliest
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, Verdict
+from thermodata.diagnosis.verdict.judged import Judged, Judgement, Verdict
 from thermodata.diagnosis.verdict.preference import is_its_name
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.ranking import rank_in

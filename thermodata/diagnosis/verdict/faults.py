@@ -9,7 +9,7 @@ from thermodata.diagnosis.question.known_effects import otherwise
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.problem import Base, Problem
 from thermodata.diagnosis.sensors.logging_faults import clock_offsets, clocks_beside, wrong_gains
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.grid.dataset import Dataset

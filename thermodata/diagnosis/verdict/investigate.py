@@ -34,7 +34,8 @@ from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.verdict.asked import of_library
 from thermodata.diagnosis.verdict.faults import faults_of_logs, that_nothing_missing_makes
 from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
-from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge, sound_twins
+from thermodata.diagnosis.verdict.judge import concluded, judge, sound_twins
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weigh.beside import beside

@@ -17,7 +17,7 @@ from thermodata.diagnosis.claims.probability import is_made_a_claim, may_be_conf
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import Known, known
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.beside import extended
 from thermodata.diagnosis.weigh.evidence import columns, moments, weigh

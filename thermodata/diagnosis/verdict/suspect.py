@@ -14,7 +14,7 @@ from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules import DROP_LIMIT
 from thermodata.diagnosis.claims.rules_together import failed_rules
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.agreed.limits import OF_NOTHING, PLAUSIBLE

@@ -14,7 +14,8 @@ from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
 from thermodata.diagnosis.tell.advising.worked import worked
 from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, equivalents
+from thermodata.diagnosis.verdict.judge import equivalents
+from thermodata.diagnosis.verdict.judged import Judged
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.view.grid.dataset import Dataset

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.diagnosis.verdict.judge import Judgement, OneBody
+from thermodata.diagnosis.verdict.judged import Judgement, OneBody
 from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import listed

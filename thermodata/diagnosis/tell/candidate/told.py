@@ -11,7 +11,8 @@ from thermodata.diagnosis.tell.listing.advised import against_adding
 from thermodata.diagnosis.tell.listing.errors_told import as_told, beside_the_model, judged_beside
 from thermodata.diagnosis.tell.listing.stated import Row, among, goes_by_name, reads_as
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.verdict.judge import Judged, equivalents
+from thermodata.diagnosis.verdict.judge import equivalents
+from thermodata.diagnosis.verdict.judged import Judged
 from thermodata.diagnosis.weigh.scored import Scored
 
 

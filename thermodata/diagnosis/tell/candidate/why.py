@@ -20,7 +20,7 @@ from thermodata.diagnosis.tell.candidate.told import Told
 from thermodata.diagnosis.tell.listing.errors_told import errors_of_all
 from thermodata.diagnosis.tell.listing.stated import among, is_a_cause, is_judged_beside
 from thermodata.diagnosis.tell.outcome import Outcome
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.diagnosis.tell.listing.stated import Row
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 
 

@@ -13,7 +13,7 @@ from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
 from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall
 from thermodata.diagnosis.tell.listing.stated import Row, among, causes, is_judged_beside, likeliest, stated
 from thermodata.diagnosis.verdict.investigate import Investigation
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judged import Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 
 SHOWN = 15

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules_together import failed_rules
-from thermodata.diagnosis.verdict.judge import Judged
+from thermodata.diagnosis.verdict.judged import Judged
 from thermodata.diagnosis.verdict.preference import NAMED_SHARE, UNNAMED
 from thermodata.diagnosis.weigh.scored import Scored
 

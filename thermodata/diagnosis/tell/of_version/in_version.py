@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.diagnosis.tell.of_version.together import Refit
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.errors import ThermodataError
 from thermodata.view.grid.dataset import TestData

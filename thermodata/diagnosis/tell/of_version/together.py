@@ -16,7 +16,7 @@ from thermodata.diagnosis.tell.listing.advised import lets_an_error_fall
 from thermodata.diagnosis.tell.listing.errors_told import beside_the_model, fall, judged_beside
 from thermodata.diagnosis.tell.of_version.same_equation import may_be
 from thermodata.diagnosis.verdict.investigate import Investigation, weighed
-from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.judged import Judged, Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import ThermodataError
 from thermodata.modelling.terms.fitted_response import FittedResponse
