@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.tell.candidate.of_locked import stands_for
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.report.verdict.candidate_errors import locked_errors

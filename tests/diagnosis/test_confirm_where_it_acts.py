@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
-from thermodata.diagnosis.locked.confirm import Confirmation, confirm
+from thermodata.diagnosis.locked.confirm import confirm
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.effect import effect
 from thermodata.effect.lag import lag
 from thermodata.view.grid.dataset import Dataset, TestData

@@ -16,7 +16,7 @@ from thermodata.diagnosis import concluded as concluding
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.locked.confirm import Confirmation, Shape
+from thermodata.diagnosis.locked.confirmation import Confirmation, Shape
 from thermodata.diagnosis.question import responses
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.sound import Sound

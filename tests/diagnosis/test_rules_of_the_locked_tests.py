@@ -13,7 +13,8 @@ from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.locked import confirm as confirming
-from thermodata.diagnosis.locked.confirm import Confirmation, Shape, extended, on_all_open, rmse
+from thermodata.diagnosis.locked.confirm import extended, on_all_open, rmse
+from thermodata.diagnosis.locked.confirmation import Confirmation, Shape
 from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.locked.unlocking import spoilt

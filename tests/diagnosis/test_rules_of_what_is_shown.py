@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.claims.probability import probability
-from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
 from thermodata.diagnosis.tell.advising.next_test import (
     to_bear_out,

@@ -32,6 +32,7 @@ BESIDE = {
     "sudden.py": ("steps", "decays", "steps_beside_commands"),
     "repeating.py": ("repeated_steps",),
     "confirm.py": ("the_locked_tests",),
+    "confirmation.py": ("the_locked_tests",),
     "chain.py": ("the_noise",),
     "discrepancy.py": ("the_noise",),
     "ends_of_logs.py": ("ends_of_logs",),
@@ -448,7 +449,7 @@ MUTANTS = [
         "what else was selected is forgotten",
     ),
     diagnosis(
-        "confirm.py",
+        "confirmation.py",
         "before, after = self.shape_before, self.shape_after",
         "before, after = self.before, self.after",
         "one unlucky zero withdraws a claim",

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.case import Case
-from thermodata.diagnosis.locked.confirm import Confirmation, confirm
+from thermodata.diagnosis.locked.confirm import confirm
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.locked.left_on_locked import contradicted
 from thermodata.diagnosis.locked.unlocking import Look, Unlocked, unlocked
 from thermodata.diagnosis.tell.of_version.in_version import told_by_versions

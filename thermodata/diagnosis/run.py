@@ -14,7 +14,8 @@ from thermodata.diagnosis.candidates.by_name import only_by_name
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
-from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
+from thermodata.diagnosis.locked.confirm import Fits, confirm
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.locked.copies import copies
 from thermodata.diagnosis.locked.held import as_held, despite, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked

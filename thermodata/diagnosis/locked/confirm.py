@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
+from thermodata.diagnosis.locked.confirmation import Confirmation, Shape, foretold_by
 from thermodata.diagnosis.question.problem import freed
 from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.scored import ACTS
@@ -19,72 +19,11 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.trust.checks.bound_checks import IMPLAUSIBLE
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.answers.result import Check
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import Dataset, TestData
 
 AS_REFITTED = 0.1  # of an error: a model whose refit to all open tests leaves as much is not told beside it
-
-
-@dataclass(frozen=True, slots=True)
-class Shape:
-    """Of one locked test, a free offset: sums of squares of the error before and after, and of what is changed."""
-
-    key: tuple[str, str]
-    rows: int
-    before: float
-    after: float
-    changed: float
-
-
-@dataclass(frozen=True, slots=True)
-class Confirmation:
-    """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
-
-    before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
-    test: one unlucky zero must not hide that the shape fits. All are of fits to all open tests. stands: as scored, of
-    the model as it is fitted to its own tests, which is what somebody has; None where it was not asked, or the refit
-    leaves as much (`AS_REFITTED`). stands_each: the same of every locked test, by its key. changed: RMS of what the
-    addition changes there. each: (key, error before, error after) of every locked test. shapes: of every one, too.
-    asked: the keys of those that decide, for a claim acts there; None: all. acts: the keys of those in which the
-    candidates themselves act, fitted beside the model as it stands (`ACTS`). does: how much they do in each, about its
-    mean. most: in the open test in which they do most. implausible: what is said of gains that are larger than anything
-    known, by candidate. fitted: with the candidates, to all open tests.
-    """
-
-    before: float | None
-    after: float | None
-    shape_before: float | None
-    shape_after: float | None
-    changed: float
-    parameters: dict[str, dict[str, Parameter]]
-    each: tuple[tuple[tuple[str, str], float, float], ...] = ()
-    shapes: tuple[Shape, ...] = ()
-    asked: frozenset[tuple[str, str]] | None = None
-    acts: frozenset[tuple[str, str]] = frozenset()
-    does: Mapping[tuple[str, str], float] = field(default_factory=dict)
-    most: float | None = None
-    implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    fitted: FittedResponse | None = None
-    stands: float | None = None
-    stands_each: Mapping[tuple[str, str], float] = field(default_factory=dict)
-
-    def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
-        """By shape, on some of the locked tests; None where none of them can be predicted."""
-        if tests is None:
-            return self.foretold
-        return _foretold([s for s in self.shapes if s.key in tests], tests)
-
-    @property
-    def foretold(self) -> Foretold | None:
-        """By shape; None where there are no locked tests."""
-        before, after = self.shape_before, self.shape_after
-        return None if before is None or after is None else Foretold(before, after, self.changed)
-
-    @property
-    def where_it_acts(self) -> Foretold | None:
-        """By shape, on the locked tests in which the candidates act; None where they rest in all of them."""
-        return self.on(self.acts)
 
 
 def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
@@ -188,7 +127,7 @@ class Fits:
                 continue  # no open test has all of their channels
             usable = [t for t in asked if ours.can_predict(t) and theirs.can_predict(t)]
             if usable:
-                return _foretold([_shape(ours, theirs, t) for t in usable], tests)
+                return foretold_by([_shape(ours, theirs, t) for t in usable], tests)
         return None
 
     def together(self, candidates: Sequence[CandidateEffect]) -> Foretold | None:
@@ -198,7 +137,7 @@ class Fits:
         except ThermodataError:  # no open test has all of their channels
             return None
         usable = [t for t in self.locked if ours.can_predict(t) and theirs.can_predict(t)]
-        return _foretold([_shape(ours, theirs, t) for t in usable], None)
+        return foretold_by([_shape(ours, theirs, t) for t in usable], None)
 
     def of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
         """Of the model with candidates; ThermodataError where no open test has all of their channels."""
@@ -207,16 +146,6 @@ class Fits:
             fitted = fit_model(extended(self.spec, candidates), self.data, uncertainty=False)
             self._kept[key] = fitted.responses[self.index]
         return self._kept[key]
-
-
-def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
-    rows = sum(s.rows for s in shapes)
-    if not rows:
-        return None
-    before, after, changed = (
-        float(np.sqrt(sum(getattr(s, name) for s in shapes) / rows)) for name in ("before", "after", "changed")
-    )
-    return Foretold(before, after, changed, tests=tests, rows=rows)
 
 
 def _sizes_of_added(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judged import Judgement
 

@@ -7,7 +7,7 @@ import math
 from thermodata.diagnosis.claims.in_words import in_words, on_locked
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import LEAST_TESTS
-from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.weigh.figures import from_to, of_more_than_noise, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.scored import Scored

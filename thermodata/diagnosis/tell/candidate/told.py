@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
-from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.tell.listing.advised import against_adding
 from thermodata.diagnosis.tell.listing.errors_told import as_told, beside_the_model, judged_beside
 from thermodata.diagnosis.tell.listing.stated import Row, among, goes_by_name, reads_as
