@@ -13,6 +13,7 @@ import pytest
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.candidate_effect import CandidateEffect
 from thermodata.diagnosis.tell.advising import next_test
+from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.weigh.gain_by import gains_by_condition, named
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -301,5 +302,5 @@ def test_the_advice_is_the_same_work_with_each_value() -> None:
     said = next_test.to_separate(cause, [differs], {})
     assert said == f"to tell coolant:T_c from {ID}: the same work with each value of conditions.tool"
     spots: list[WeakSpot] = []
-    assert "do the same work with each value of conditions.tool" in next_test.to_find(8, spots, {}, differs)
-    assert "T_b is logged and ranks first" in next_test.to_find(8, spots, {}, plain)
+    assert "do the same work with each value of conditions.tool" in to_find(8, spots, {}, differs)
+    assert "T_b is logged and ranks first" in to_find(8, spots, {}, plain)

@@ -18,7 +18,7 @@ from thermodata.diagnosis.claims.probability import (
 from thermodata.diagnosis.claims.rules_together import blunt
 from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
-from thermodata.diagnosis.tell.advising.next_test import to_find
+from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.verdict.verdict import causes, verdict_sentence

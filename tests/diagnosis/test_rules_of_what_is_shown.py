@@ -1,4 +1,5 @@
-"""Weak spots, what is said of the unknown, and which test comes next: weak.py, unexplained.py, next_test.py."""
+"""Weak spots, what is said of the unknown, and which test comes next: weak.py, unexplained.py, next_test.py,
+to_find.py."""
 
 from __future__ import annotations
 
@@ -12,14 +13,8 @@ import pytest
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
-from thermodata.diagnosis.tell.advising.next_test import (
-    to_bear_out,
-    to_decide,
-    to_exclude,
-    to_find,
-    to_separate,
-    to_tell_parts,
-)
+from thermodata.diagnosis.tell.advising.next_test import to_bear_out, to_decide, to_exclude, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.tell.candidate.ladder import of_probability
 from thermodata.diagnosis.tell.candidate.of_claim import in_spite_of, placeless_limit
 from thermodata.diagnosis.tell.candidate.of_locked import said_by_locked

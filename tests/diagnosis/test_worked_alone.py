@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.tell.advising.next_test import to_find
+from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.tell.advising.worked import AIR, Worked, worked
 from thermodata.view.grid.dataset import ChannelInfo, TestData
 

@@ -57,6 +57,7 @@ BESIDE = {
     "bare.py": ("unread_parts",),
     "feedback.py": ("feedback",),
     "next_test.py": ("what_is_shown", "unread_parts"),
+    "to_find.py": ("what_is_shown", "unread_parts"),
     "opened.py": ("the_locked_tests",),
     "other_axes.py": ("other_axes",),
     "preference.py": ("selection",),
@@ -1052,7 +1053,7 @@ MUTANTS = [
     diagnosis("unexplained.py", "0.8 * len(means)", "0.1 * len(means)", "any hour of the day stands out"),
     diagnosis("unexplained.py", "len(means) >= 3 and", "len(means) >= 1 and", "one day is a rhythm"),
     diagnosis("unexplained.py", "< np.exp(-1)", "< 0.9", "time constants far too short"),
-    diagnosis("next_test.py", "ENOUGH_TESTS = 8", "ENOUGH_TESTS = 99", "more of the same is advised for ever"),
+    diagnosis("to_find.py", "ENOUGH_TESTS = 8", "ENOUGH_TESTS = 99", "more of the same is advised for ever"),
     diagnosis(
         "next_test.py",
         "if t.candidate.effect.name != mine.effect.name",

@@ -1,4 +1,4 @@
-"""Which of the pieces of advice (`next_test`) an answer ends with."""
+"""Which of the pieces of advice (`next_test`, `to_find`) an answer ends with."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import P_LIMIT, rules
 from thermodata.diagnosis.tell.advising import next_test
 from thermodata.diagnosis.tell.advising.bare import to_log, with_fixture
+from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.tell.advising.worked import worked
 from thermodata.diagnosis.tell.outcome import Outcome
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -66,7 +67,7 @@ def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequen
         return next_test.to_repeat(first.candidate, only, data.channels)
     took_part = {b.test.key: b.test for b in investigation.problem.blocks}
     sources = worked(list(took_part.values()), data.channels)
-    return next_test.to_find(len(took_part), investigation.spots, data.channels, first, sources)
+    return to_find(len(took_part), investigation.spots, data.channels, first, sources)
 
 
 def _of_one_test_each(investigation: Investigation) -> CandidateEffect | None:
