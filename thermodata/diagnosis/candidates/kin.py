@@ -30,6 +30,7 @@ class ModelOf:
 
     @property
     def read(self) -> frozenset[str]:
+        """The channels that the model reads."""
         return frozenset[str]().union(*(p.channels for p in self.own))
 
     def has_any(self, effects: Container[str], family: str) -> bool:

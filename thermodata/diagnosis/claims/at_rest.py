@@ -54,7 +54,7 @@ def at_rest(
 
 
 def does(test: TestData, name: str, quantity: str) -> float:
-    """How far it goes from rest; a position has none, and goes from end to end."""
+    """How far it goes from rest, in its own unit; a position has none, and goes from end to end."""
     values = test.values.get(name)
     seen = values[np.isfinite(values)] if values is not None else np.empty(0)
     if not len(seen):

@@ -53,6 +53,7 @@ def _timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
 
 
 def commands_of(source: str, channels: Mapping[str, ChannelInfo]) -> list[tuple[str, ChannelInfo]]:
+    """The commands of a source, by name, in order."""
     return [(n, c) for n, c in sorted(channels.items()) if c.source == source and is_command(c)]
 
 

@@ -20,6 +20,8 @@ class Declared:
 
     @classmethod
     def of(cls, data: Dataset, response: str) -> Declared:
+        """Of the data of a model."""
+
         def sources(channels: Mapping[str, ChannelInfo]) -> frozenset[str]:
             return frozenset(c.source for c in channels.values() if c.clock_declared and c.source)
 

@@ -44,6 +44,7 @@ class OddEnds:
 
     @property
     def key(self) -> Key:
+        """Campaign and test."""
         return self.campaign, self.test
 
     def move(self, home: str | None) -> ClockMoved | None:

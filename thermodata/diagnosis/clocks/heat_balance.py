@@ -60,6 +60,7 @@ class Disagreement:
 
     @property
     def plain(self) -> bool:
+        """Whether it is so plain that a clock may be moved for it."""
         if self.share - self.rest < TELLS:
             return False  # a test in which the machine waits: what cools foretells itself
         much = self.share >= max(LEAST_SHARE, BEATS * self.unmoved) and self.own <= MOST_OWN
@@ -185,7 +186,7 @@ class Pair:
         )
 
     def by_its_own(self, i: int) -> Float2D:
-        """The same of a test with the gains that it gives itself."""
+        """The same of a test with the gains that it gives itself, shape (channels, s)."""
         return _share_foretold(self._squares_left([i], self._gains([i])), self.energy[i])
 
     def _gains_unmoved(self, of: Sequence[int]) -> FloatND:

@@ -111,7 +111,7 @@ class Sides:
 
     @property
     def foretold(self) -> float:
-        """In all tests, each where more is."""
+        """Sum of the shares of all tests, each where more is."""
         return float(np.maximum(self._shares_unmoved, self._shares_moved).sum())
 
     def of_off(self) -> tuple[float, float]:
@@ -120,7 +120,7 @@ class Sides:
         return float(self._shares_unmoved[here].mean()), float(self._shares_moved[here].mean())
 
     def apart_s(self) -> float:
-        """By which clocks differ from what they are in tests that are right, where bodies are as late as here."""
+        """By which [s] clocks differ from what they are in tests that are right, where bodies are as late as here."""
         return self._best_shift_s(self.off, self.shift_s) - self._best_shift_s(self.right, 0.0)
 
     @property

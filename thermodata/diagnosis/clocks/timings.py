@@ -39,6 +39,7 @@ class Timing:
 
     @property
     def key(self) -> Key:
+        """Campaign and test."""
         return self.campaign, self.test
 
     def moves(self) -> list[ClockMoved]:

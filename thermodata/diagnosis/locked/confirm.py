@@ -180,7 +180,8 @@ def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shap
 
 
 def shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
-    """Where it counts, with the best offset, and the best start of a test that began warm."""
+    """Where it counts, with the best offset, and the best start of a test that began warm, shape (m,). values, mask: of
+    all samples, shape (n,)."""
     some = values[mask][:, None]
     return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
 

@@ -31,7 +31,7 @@ class Chain:
 
     @property
     def logdet(self) -> float:
-        """Of the covariance: B has the determinant 1."""
+        """Log determinant of the covariance: B has the determinant 1."""
         return 2 * float(np.log(self.factor[0]).sum())
 
     def part(self, first: int, last: int) -> Chain:
@@ -106,7 +106,7 @@ def chain_of(tests: Sequence[Float1D], white: float, slow: float, tau_s: float) 
 
 
 def sound(solution: Float2D, info: int) -> Float2D:
-    """What LAPACK gives, where it says that it could."""
+    """What LAPACK gives, where it says that it could: LinAlgError where it could not."""
     if info:
         raise np.linalg.LinAlgError("a covariance is singular")
     return np.asarray(solution, dtype=np.float64)

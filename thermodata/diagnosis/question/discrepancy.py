@@ -78,7 +78,8 @@ class Whitened:
         return self.projected(self._chain.halved(columns)) if columns.size else columns
 
     def of_each(self, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
-        """The same of each of several askers, whitened at once. An asker lives as long as this."""
+        """The same of each of several askers, whitened at once, shape (rows, columns) each. An asker lives as long as
+        this."""
         lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
         ends = np.cumsum([columns.shape[1] for _, columns in lacking])
         made = {id(who): np.empty(columns.shape) for who, columns in lacking}
@@ -157,20 +158,20 @@ def _orthogonal(columns: Float2D) -> tuple[Float2D, Float1D]:
 
 
 def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Float2D:
-    """L^-1 times the right side, or L'^-1, for a lower Cholesky factor L. Thousands of small ones: LAPACK itself, for
-    what stands around it costs more than it does."""
+    """L^-1 times the right side, shape (k, columns), or L'^-1, for a lower Cholesky factor L, shape (k, k). Thousands
+    of small ones: LAPACK itself, for what stands around it costs more than it does."""
     if not right.size:
         return right
     return sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
 
 
 def cholesky(precision: Float2D) -> Float2D:
-    """The lower factor L of a matrix, likewise."""
+    """The lower factor L of a matrix, shape (k, k), likewise."""
     return sound(*dpotrf(precision, lower=1)) if precision.size else precision
 
 
 def inverse(factor: Float2D) -> Float2D:
-    """L^-1 for a lower Cholesky factor L."""
+    """L^-1 for a lower Cholesky factor L, shape (k, k)."""
     return sound(*dtrtri(factor, lower=1)) if factor.size else factor
 
 

@@ -74,7 +74,7 @@ class Known:
     _others: list[Others] = field(default_factory=list, init=False, repr=False, compare=False)
 
     def factor(self, tests: Int1D) -> Float2D:
-        """Cholesky factor of the posterior precision, from some tests."""
+        """Cholesky factor of the posterior precision, from some tests, shape (k, k)."""
         key = tests.tobytes()
         if key not in self._factors:
             self._factors[key] = cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
@@ -89,6 +89,7 @@ class Known:
 
     @property
     def every(self) -> Int1D:
+        """The numbers of all tests, shape (tests,)."""
         return np.arange(len(self.gram))
 
     @property
@@ -102,11 +103,12 @@ class Known:
 
     @property
     def white(self) -> Float2D:
-        """The columns alone, (rows, k)."""
+        """The columns alone, shape (rows, k)."""
         return self.both[:, :-1]
 
     @property
     def response(self) -> Float1D:
+        """Whitened, shape (rows,)."""
         return self.both[:, -1]
 
     @property
@@ -210,7 +212,7 @@ def others_of_each(parts: FloatND) -> FloatND:
 
 
 def solved(factor: Float2D, right: Float2D) -> Float2D:
-    """(L L')^-1 times the right side."""
+    """(L L')^-1 times the right side, shape (k, columns)."""
     return halved(factor, halved(factor, right), transposed=True)
 
 

@@ -71,6 +71,7 @@ def same_recording(one: TestData, other: TestData, response: str) -> bool:
 
 
 def as_artefacts(found: Sequence[RepeatedSamples]) -> list[Artefact]:
+    """What was left out, as the answer says it."""
     return [
         Artefact(kind="copy", campaign=a.test.campaign, test=a.test.test, at_s=None, size_um=None, why=_why_left_out(a))
         for a in found

@@ -86,10 +86,12 @@ class Problem:
 
     @property
     def response_blocks(self) -> list[Float1D]:
+        """Of each test, in its unit, shape (m,) each."""
         return [b.response for b in self.blocks]
 
     @property
     def rows(self) -> int:
+        """Samples that count, of all tests."""
         return sum(len(b.t_s) for b in self.blocks)
 
     @property

@@ -165,7 +165,7 @@ class Foretold:
 
     @property
     def factor(self) -> float:
-        """How many times what is said the response is."""
+        """How many times what is said the response is; 1 where nothing is said."""
         return self.along / self.power if self.power > 0 else 1.0
 
     def error(self, factor: float = 1.0) -> float:

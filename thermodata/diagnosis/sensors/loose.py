@@ -207,7 +207,7 @@ class _Sums:
 
 
 def telling(foretold: Float1D) -> Bool1D:
-    """Which tests say by what factor a temperature answers. foretold: of each, RMS [K]."""
+    """Which tests say by what factor a temperature answers, shape (tests,). foretold: of each, RMS [K]."""
     return np.asarray(foretold >= max(LEAST_K, TELLS * float(foretold.max())))
 
 

@@ -93,15 +93,15 @@ def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step
 
 
 def tread_of_response(problem: Problem) -> float:
-    """Distance of the values that the response can read, 0 where they are too fine to see."""
+    """Distance of the values that the response can read, in its unit; 0 where they are too fine to see."""
     name = problem.response
     tests = {b.test.key: b.test for b in problem.blocks if name in b.test.values}
     return tread_of([t.values[name][t.valid[name]] for t in tests.values()])
 
 
 def noise_with_treads(problem: Problem) -> float:
-    """What a reading is known to: its noise, or where it stands on treads what rounding to them leaves, which is
-    spread evenly over one."""
+    """What a reading is known to, in the response's unit: its noise, or where it stands on treads what rounding to them
+    leaves, which is spread evenly over one."""
     return max(problem.noise, tread_of_response(problem) / float(np.sqrt(12)))
 
 
@@ -172,7 +172,7 @@ def is_a_step(z: float, size: float, noise: float, tread: float = 0.0, least: fl
 
 
 def least_step(noise: float, tread: float) -> float:
-    """A smaller one is none, however far it stands out."""
+    """A smaller one is none, however far it stands out. All in the response's unit."""
     return tread + max(NOISES * noise, LEAST_UM)
 
 

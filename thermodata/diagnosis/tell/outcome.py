@@ -20,6 +20,7 @@ class Outcome:
 
     @property
     def measure(self) -> Measure:
+        """What the evidence is held against."""
         return self.investigation.measure
 
     @property

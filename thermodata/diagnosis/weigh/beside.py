@@ -54,8 +54,10 @@ def each_beside_others(
 
 
 def weighed_beside(one: Scored, others: Sequence[Scored]) -> Scored:
+    """The same, with the ids of those that it was weighed beside."""
     return replace(one, others=tuple(o.candidate.id for o in others))
 
 
 def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
+    """The candidates of a pool that were not chosen."""
     return [c for c in pool if not any(c is s.columns for s in chosen)]

@@ -54,6 +54,7 @@ class Columns:
 
     @property
     def gains(self) -> int:
+        """How many gains the candidate has."""
         return int(self.scale.shape[1])
 
     @property
@@ -89,15 +90,18 @@ class Weighed:
 
     @property
     def total(self) -> float:
+        """Log evidence over all points and sizes."""
         return float(_log_sum(self.log_bf.reshape(-1, 1))[0])
 
     @property
     def best(self) -> tuple[int, int]:
+        """The point and the size that are most probable."""
         point, size = np.unravel_index(int(np.argmax(self.log_bf)), self.log_bf.shape)
         return int(point), int(size)
 
     @property
     def coefficients(self) -> Float1D:
+        """At the best point and size, shape (c,)."""
         return np.asarray(self.mean[self.best])
 
 

@@ -39,6 +39,7 @@ class Foretold:
 
     @property
     def falls(self) -> bool:
+        """Whether the error falls by as much as counts."""
         return self.after < (1 - LEAST) * self.before
 
     @property

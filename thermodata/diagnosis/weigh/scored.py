@@ -57,7 +57,7 @@ class Scored:
 
     @property
     def acts(self) -> Bool1D:
-        """The tests in which it does something."""
+        """The tests in which it does something, shape (tests,)."""
         return acting(self.size)
 
     @property
@@ -68,6 +68,7 @@ class Scored:
 
     @property
     def error_after(self) -> float:
+        """The same with the candidate."""
         return self._error(self.own_after)
 
     @property
@@ -92,5 +93,5 @@ class Scored:
 
 
 def acting(size: Float1D) -> Bool1D:
-    """Where a contribution does something. size: its RMS in each test."""
+    """Where a contribution does something, shape (tests,). size: its RMS in each test."""
     return np.asarray(size >= ACTS * size.max(initial=0.0))

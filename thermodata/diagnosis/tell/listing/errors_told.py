@@ -73,6 +73,7 @@ def errors_of_all(scored: Scored) -> tuple[float, float]:
 
 
 def rmse(sse: np.ndarray, scored: Scored) -> float | None:
+    """RMS error in the response's unit, each test alike; None where no test was left out. sse: of each test."""
     return float(np.sqrt(np.mean(sse / scored.rows))) if len(scored.rows) else None
 
 
