@@ -55,11 +55,12 @@ def candidate(
     around: bool = False,
     of_motion: bool = False,
     of_holder: bool = False,
+    of_source: bool = False,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
     effect = PlainEffect(name, family, refines=refines)
     made = CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around, of_motion=of_motion)
-    return replace(made, of_holder=of_holder)
+    return replace(made, of_holder=of_holder, of_source=of_source)
 
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
@@ -80,6 +81,7 @@ def scored(
     around: bool = False,
     of_motion: bool = False,
     of_holder: bool = False,
+    of_source: bool = False,
     evidence: float = 390.0,
     gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
@@ -104,6 +106,7 @@ def scored(
         around=around,
         of_motion=of_motion,
         of_holder=of_holder,
+        of_source=of_source,
     )
     rows = np.full(TESTS, ROWS / TESTS)
     return Scored(

@@ -230,14 +230,15 @@ def test_a_cause_is_right_in_two_of_three_cases_and_in_half_where_nothing_has_a_
         (100.0, 0.4, {"kin": "part"}, 0.15582),
         (100.0, 0.4, {"kin": "near"}, 0.71300),
         (100.0, 0.4, {"of_holder": True}, 0.42799),
+        (100.0, 0.4, {"of_source": True}, 0.87103),
     ],
 )
 def test_the_probability_is_that_of_its_sharpness_and_of_what_it_is(
     evidence: float, after: float, kind: dict[str, Any], share: float
 ) -> None:
     """1 / (1 + exp(-2.45 - 2.2 log10(sharpness) - 1.1 fall + 1.8 if it is the air, beaten, + 2.65 if passive,
-    + 2.6 if the model reads it with others, + 1.2 of what holds the probes)); the least sharpness is 1e-4, and an error
-    that rises by more than a fifth says no more."""
+    + 2.6 if the model reads it with others, + 1.2 of what holds the probes, - 1 of what makes heat)); the
+    least sharpness is 1e-4, and an error that rises by more than a fifth says no more."""
     assert probability(scored(evidence=evidence, after=after, **kind)) == pytest.approx(share, rel=1e-3)
 
 
@@ -255,11 +256,20 @@ def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int
         ({"passive": True}, "it reads a body that makes no heat, one beside the machine, or one whose place"),
         ({"kin": "part"}, "the model reads it already, together with others"),
         ({"of_holder": True}, "it reads the tool, or what holds the probes, which warms with all in the working space"),
+        ({"of_source": True}, "it reads a part that makes heat itself, which speaks for it"),
     ],
 )
-def test_why_it_is_less_probable_is_said(kind: dict[str, Any], words: str) -> None:
-    assert words in str(blunt(scored(evidence=60.0, **kind)))
-    assert words not in str(blunt(scored(evidence=60.0)))
+def test_what_its_probability_hangs_on_is_said(kind: dict[str, Any], words: str) -> None:
+    assert words in str(blunt(scored(evidence=20.0, **kind)))
+    assert words not in str(blunt(scored(evidence=20.0)))
+
+
+def test_that_it_makes_heat_says_nothing_where_another_part_may_be_it() -> None:
+    """A nut makes heat, and so does the guideway of the same axis that no sensor reads."""
+    nut = scored(evidence=100.0, of_source=True)
+    plain = scored(evidence=100.0)
+    either, neither = (replace(s, candidate=replace(s.candidate, unread=("axis.x.guide",))) for s in (nut, plain))
+    assert probability(either) == probability(neither) < probability(plain) < probability(nut)
 
 
 @pytest.mark.parametrize(

@@ -512,6 +512,36 @@ def test_what_holds_the_probes_and_the_tool_is_known() -> None:
     assert found == {"lag:T_bracket", "lag:T_probe", "lag:T_tool"}
 
 
+@pytest.mark.parametrize(
+    ("quantity", "place", "known"),
+    [
+        ("temperature", "Spindle.Bearing.front", True),
+        ("temperature", "counter_spindle.bearing", True),
+        ("temperature", "axis.z.nut", True),
+        ("temperature", "spindle.gearbox", True),
+        ("temperature", "hydraulics", True),
+        ("temperature", "chiller.supply", True),
+        ("temperature", "turret", True),
+        ("temperature", "turret.motor", False),  # a winding: as warm as what its drive does
+        ("temperature", "axis.z.motor", False),
+        ("temperature", "axis.z.guide", False),
+        ("temperature", "coolant.tank", False),  # warmed by all that it washes
+        ("temperature", "column.front", False),
+        ("temperature", "hall", False),
+        ("temperature", None, False),
+        ("rotational_speed", "spindle.bearing", False),
+        ("state", "hydraulics", False),
+    ],
+)
+def test_what_reads_a_part_that_makes_heat_itself_is_known(quantity: str, place: str | None, known: bool) -> None:
+    channels = {
+        "u": ChannelInfo("u", quantity, "1", at=place),
+        "T_hall": ChannelInfo("T_hall", "temperature", "degC", at="hall"),
+    }
+    found = {c.id for c in candidates({LAG.name: LAG}, channels, (), "dZ") if c.of_source}
+    assert found == ({"lag:u"} if known else set())
+
+
 def test_what_is_read_around_the_machine_alone_is_known() -> None:
     library = {e.name: e for e in (LAG, replace(NUT, name="layers", needs=_two("hall.top", "hall.bottom")))}
     air = {

@@ -341,12 +341,34 @@ MUTANTS = [
     diagnosis("probability.py", "0.0 if scored.looked is None else", "0.0 if True else", "locked tests weigh nothing"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.6", "the lock stays shut on what is likely"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.3", "the lock is opened for what is not likely"),
-    diagnosis("probability.py", "-2.6, -1.2, -2.3)", "0.0, -1.2, -2.3)", "one of several is claimed beside them"),
     diagnosis(
-        "probability.py", "-2.6, -1.2, -2.3)", "-2.6, 0.0, -2.3)", "what holds the probes is claimed for what warms it"
+        "probability.py", "-2.6, -1.2, -2.3, 1.0)", "0.0, -1.2, -2.3, 1.0)", "one of several is claimed beside them"
     ),
     diagnosis(
-        "probability.py", "-1.2, -2.3)", "-1.2, 0.0)", "a guideway is claimed for the screw that no sensor reads"
+        "probability.py",
+        "-2.6, -1.2, -2.3, 1.0)",
+        "-2.6, 0.0, -2.3, 1.0)",
+        "what holds the probes is claimed for what warms it",
+    ),
+    diagnosis(
+        "probability.py",
+        "-1.2, -2.3, 1.0)",
+        "-1.2, 0.0, 1.0)",
+        "a guideway is claimed for the screw that no sensor reads",
+    ),
+    diagnosis("probability.py", "-2.3, 1.0)", "-2.3, 0.0)", "a bearing is believed no sooner than what it does"),
+    diagnosis(
+        "probability.py", "(of.of_source and not another)", "of.of_source", "a nut is claimed for a guideway not read"
+    ),
+    diagnosis(
+        "of_library.py", 'channel.quantity == "temperature" and makes_heat', "makes_heat", "a pump that runs makes heat"
+    ),
+    Mutant(
+        "thermodata/schema/words/places.py",
+        "made and not _WOUND.intersection(parts)",
+        "made",
+        "a winding is a part that stores heat",
+        ("tests/diagnosis/test_rules_of_candidates.py",),
     ),
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
     diagnosis("probability.py", "max(samples, 1), FALLS[1], ", "max(samples, 1), 0.0, ", "a second look is not taken"),

@@ -32,7 +32,8 @@ class CandidateEffect:
     where they can. unread: places of other parts that it may be (`unread`). around: whether it reads nothing
     but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
     of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
-    working space. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
+    working space. of_source: whether it reads nothing but temperatures of parts that make heat of their own, and store
+    it. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
     other. unmodelled: of a plain function, ids of what has a name by the same channels, and of whose heat the model has
     nothing."""
 
@@ -48,6 +49,7 @@ class CandidateEffect:
     around: bool = False
     of_motion: bool = False
     of_holder: bool = False
+    of_source: bool = False
     lesser: bool = False
     unmodelled: tuple[str, ...] = ()
 

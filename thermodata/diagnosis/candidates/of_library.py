@@ -31,7 +31,7 @@ from thermodata.effect.binding import bindings, family_of
 from thermodata.effect.places import holds
 from thermodata.plugin import Effect
 from thermodata.schema.units.quantity import NOT_DRIVERS
-from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale
+from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale, makes_heat
 from thermodata.view.grid.dataset import ChannelInfo
 
 STATIC = "static"
@@ -118,6 +118,7 @@ class _Beside:
             around=len(names) == 1 and all(_is_around(usable[n]) for n in names),
             of_motion=all(is_motion(usable[n].quantity) for n in names),
             of_holder=all(is_holder(usable[n]) for n in names),
+            of_source=all(_is_source(usable[n]) for n in names),
             lesser=is_lesser(effect, names, usable, other),
         )
 
@@ -177,6 +178,10 @@ def _is_body(name: str, channels: Mapping[str, ChannelInfo], at_rest: Container[
         return True
     heated = (f"{own.at}.{part}" for part in HEATED_PARTS)
     return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
+
+
+def _is_source(channel: ChannelInfo) -> bool:
+    return channel.quantity == "temperature" and makes_heat(channel.at)
 
 
 def _is_around(channel: ChannelInfo) -> bool:

@@ -23,6 +23,8 @@ def in_short(scored: Scored) -> str:
         more.append("the model reads it already, together with others")
     if scored.candidate.of_holder:
         more.append("it reads the tool, or what holds the probes, which warms with all in the working space")
+    if scored.candidate.of_source and not scored.candidate.unread:
+        more.append("it reads a part that makes heat itself, which speaks for it")
     if may_be_another_cause(scored.candidate):
         more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
     more += [also_missing(scored)] if scored.also_on else []

@@ -13,9 +13,9 @@ from thermodata.diagnosis.weigh.scored import Scored
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
 # error where it acts, whether it is the air beside something sharper, whether it is passive, whether a part that
 # another cause moves may be what it stands for, whether the model reads it already, together with others, whether it
-# reads what holds the probes, and whether it is a guideway whose screw, by no channel a candidate, may be it as well
-# (docs/method.md#probability)
-PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2, -2.3)
+# reads what holds the probes, whether it is a guideway whose screw, by no channel a candidate, may be it as well, and
+# whether it reads a part that makes heat itself (docs/method.md#probability)
+PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2, -2.3, 1.0)
 # and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
 # of what is so probable without them at least
 BORNE_OUT, WORTH_ASKING = 0.5, 0.3
@@ -71,11 +71,14 @@ def _on_open_tests(scored: Scored, *, this_part: bool = False) -> float:
 def _log_odds(
     a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False, this_part: bool = False
 ) -> float:
-    level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder, by_lesser = PROBABILITY
+    level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder, by_lesser, by_source = (
+        PROBABILITY
+    )
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
     another = bool(of.unread) if this_part else may_be_another_cause(of)
     odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * another
-    return float(odds + by_one_of_several * (of.kin == "part") + by_holder * of.of_holder + by_lesser * of.lesser)
+    odds += by_one_of_several * (of.kin == "part") + by_holder * of.of_holder + by_lesser * of.lesser
+    return float(odds + by_source * (of.of_source and not another))
 
 
 def may_be_another_cause(of: CandidateEffect) -> bool:

@@ -23,7 +23,7 @@ def surely(scored: Scored) -> Rule:
         "probability",
         "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
         "beside something sharper, whether it reads a body that makes no heat, the tool, what holds the probes, "
-        "or what the model reads with others, whether another part may be it, "
+        "or what the model reads with others, or a part that makes heat itself, whether another part may be it, "
         "whether another axis misses it as well, and what the locked tests say",
         sure,
         limit,

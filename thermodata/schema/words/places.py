@@ -144,6 +144,10 @@ _ALSO_PARTS: dict[str, tuple[str, ...]] = {
     for body, link in (("spindle", "."), ("spindle", "_"), ("head", "."))
     for part in ("housing", "head", "box", "carrier", "casing", "body", "case", "stock")
 }
+# parts and bodies that make or bring heat of their own, and store it; and what of them does not
+_HEATED = {"bearing", "nut", "screw", "gearbox"}
+_MAKES_HEAT = ("turret", "hydraulics", "chiller", "lubrication")
+_WOUND = {"motor", "drive"}
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
 # makes heat or cold of its own for as long as the machine is switched on, whatever it does
@@ -173,6 +177,14 @@ def is_casting(place: str | None) -> bool:
 def is_scale(place: str | None) -> bool:
     """Whether a dotted place is a linear scale: it makes no heat, and is as warm as what bears it."""
     return place is not None and place.lower().startswith("axis.") and "scale" in place.lower().split(".")[2:]
+
+
+def makes_heat(place: str | None) -> bool:
+    """Whether a dotted place is a part that makes, or brings, heat of its own and is a mass that stores it: a bearing,
+    a nut, an oil tank. No winding: it is as warm as what its drive does at the time."""
+    first, *parts = (place or "").lower().split(".")
+    made = first in _MAKES_HEAT or bool(_HEATED.intersection(parts))
+    return made and not _WOUND.intersection(parts)
 
 
 def is_beside(place: str | None) -> bool:
