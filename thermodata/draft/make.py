@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from thermodata.draft.campaign.parts import Draft
 from thermodata.draft.campaign.plan import plan
+from thermodata.draft.campaign.said_before import with_what_was_said
 from thermodata.draft.files.letters_of_files import encoding_declared_before
 from thermodata.draft.folder.look import Progress
-from thermodata.draft.folder.scan import scan
+from thermodata.draft.folder.scan import Scan, scan
 from thermodata.draft.times.zones_before import zones_before
-from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
+from thermodata.draft.writing.baseline import model_text_of, responses_of
+from thermodata.draft.writing.by_hand import by_hand
+from thermodata.draft.writing.kept import with_answers
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
 from thermodata.draft.writing.own_id import NOTHING_HELD, id_of
 from thermodata.draft.writing.seal import is_as_sealed
 from thermodata.draft.writing.write import questions_in, text_of
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 from thermodata.store.base.files import write_error, write_text
@@ -45,9 +48,9 @@ def draft_files(
     folder: Path, *, force: bool = False, progress: Progress | None = None, held: Mapping[str, str] = NOTHING_HELD
 ) -> Drafted:
     """force: a campaign file that is there becomes campaign.1.yaml, and the encoding and the zones that it declares
-    are kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is
-    drafted too, with what would help. progress: is told (done, of, path). held: id -> campaign file, of the campaigns
-    of the store that this one is for: it gets another id."""
+    and what somebody wrote of signals, calibrations and tests are kept; without it that is a UsageError, as is a folder
+    without files. One of files that no reader claims is drafted too, with what would help. progress: is told (done, of,
+    path). held: id -> campaign file, of the campaigns of the store that this one is for: it gets another id."""
     out = folder / "campaign.yaml"
     if out.exists() and not force:
         raise UsageError(
@@ -55,7 +58,7 @@ def draft_files(
             where=str(out),
             hint=f"thermodata ingest {out} reads it as it stands and gives the lines of tests whose logs are new, "
             f"thermodata first-model {out} drafts a model of it; "
-            "--force keeps it as campaign.1.yaml and drafts it anew",
+            "--force keeps it as campaign.1.yaml and drafts it anew, with what is written there by hand",
         )
     found = scan(folder, progress, encoding_declared_before(out) if out.exists() else None)
     if not found.logs and not found.ignored:
@@ -67,8 +70,8 @@ def draft_files(
             hint="thermodata plugins lists what the installed readers read",
         )
     name, plainly = id_of(folder, held), id_of(folder)
-    draft = plan(name, folder, found, zones_before(out))
-    text, model = text_of(draft), model_text(draft)
+    draft, text = _with_answers(out, plan(name, folder, found, zones_before(out)), found)
+    model = model_text_of(parse_campaign(text, str(out)))
     kept = [keep(out)]
     write_new(out, text)
     load_campaign(out)  # a draft that doesn't load is a defect: it raises here
@@ -91,6 +94,26 @@ def draft_files(
         missing_for_a_model(text, load_campaign(out)) if model is None else None,
         None if name == plainly else (plainly, held[plainly]),
     )
+
+
+def _with_answers(out: Path, draft: Draft, found: Scan) -> tuple[Draft, str]:
+    """A draft and its text, with what somebody wrote into the file before: once that is known of its signals, more of
+    them may be seen, as the jump test of a probe."""
+    text = text_of(draft)
+    before = _to_compare(out)
+    hand = by_hand(before, text) if before is not None else None
+    if hand is None:
+        return draft, text
+    if said := list(hand.signals()):
+        draft = plan(draft.campaign, out.parent, with_what_was_said(found, said, draft), zones_before(out))
+    try:
+        filled = with_answers(text_of(draft), hand)
+        parse_campaign(filled, str(out))
+    except ThermodataError as error:
+        why = f"what the campaign file before has by hand is not kept: {error.what}"
+        draft = replace(draft, notes=(*draft.notes, why))
+        return draft, text_of(draft)
+    return draft, filled
 
 
 def write_answered(path: Path, text: str) -> tuple[Path, bool]:

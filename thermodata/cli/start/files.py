@@ -146,9 +146,7 @@ def _next_steps(made: Drafted, model: Path | None) -> str:
 
 def _first_model(made: Drafted) -> Path | None:
     """The model file that is there now, drafted or older; None where the sensors allow none."""
-    from thermodata.draft.writing.baseline import model_text
-
-    return made.campaign.with_name("model.yaml") if made.model or model_text(made.draft) else None
+    return made.campaign.with_name("model.yaml") if made.no_model is None else None
 
 
 def _progress(session: Session) -> Callable[[int, int, str], None] | None:

@@ -47,7 +47,7 @@ def _source(group: Group, beside: BesideSource) -> DraftSource:
         group.reader,
         group.template,
         tuple(filter(None, _questions(group, beside, zone_known=bool(zone)))),
-        group.table,
+        beside.before.answered(group),
         beside.aligned.get(group.source),
         common(f.letters for f in (*group.files, *group.calibrations)),
         (*group.told, *(["timezone as in the campaign file before"] if zone else [])),

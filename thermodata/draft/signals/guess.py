@@ -15,6 +15,7 @@ from thermodata.draft.signals.implied_speed import with_speed_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess, range_text
 from thermodata.draft.signals.quantity.quantity_of import quantity_of
+from thermodata.draft.signals.told_before import as_told
 from thermodata.draft.signals.told_units import bracket_at_end
 from thermodata.draft.signals.told_units.doubted_units import doubted, implausible
 from thermodata.draft.signals.told_units.implied_unit import with_unit
@@ -81,7 +82,7 @@ def guess_of(signal: Signal, values: Values | None = None) -> Guess:
     """The same of a signal, as all that its file says of it has it."""
     name = called(signal)
     found = with_standard_unit(guess(name, signal.unit, signal.dtype, values, told_of(signal)), signal)
-    return with_speed_asked(found, signal, name)
+    return as_told(with_speed_asked(found, signal, name), signal)
 
 
 @lru_cache(maxsize=50_000)

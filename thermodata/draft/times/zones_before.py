@@ -41,13 +41,18 @@ class ZonesBefore:
             return next(iter(every), None)
         return self.zones.get(self._source_of(group))
 
+    def answered(self, group: Group) -> Mapping[str, Any]:
+        """The table of a source, with the answers to what it leaves open."""
+        return _filled(group.table, self.declared.get(self._source_of(group), {}).get("table", {}))
+
     def dropped(self, group: Group, clock: bool) -> str | None:
         """What to ask of what was declared for a source and is not in its draft; None where nothing was. clock: whether
         the draft declares its clock."""
         had = dict(self.declared.get(self._source_of(group), {}))
         if clock:
             had.pop("clock", None)
-        own = {**had, "table": {k: v for k, v in had.get("table", {}).items() if group.table.get(k) != v}}
+        table = self.answered(group)
+        own = {**had, "table": {k: v for k, v in had.get("table", {}).items() if table.get(k) != v}}
         said = [f"{key}: {_flow(value)}" for key, value in own.items() if value]
         return f"{', '.join(said)}, as in the campaign file before? a draft does not keep it" if said else None
 
@@ -106,6 +111,13 @@ def is_zone(name: str) -> bool:
 
 def _answered(spec: Mapping[str, Any]) -> dict[str, Any]:
     return {str(k): v for k, v in spec.items() if UNKNOWN not in _flow(v)}
+
+
+def _filled(table: Mapping[str, Any], answers: Any) -> dict[str, Any]:
+    """A table with the answers in the place of what is unknown."""
+    given = answers if _is_dict(answers) else {}
+    made = {k: _filled(v, given.get(k)) if _is_dict(v) else v for k, v in table.items()}
+    return {k: given.get(k, v) if v == UNKNOWN else v for k, v in made.items()}
 
 
 def _flow(value: Any) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from thermodata.draft.writing.in_line import parted
@@ -65,11 +65,17 @@ def answers(key: str, question: str) -> bool:
 
 def ticked(line: str, keys: Sequence[str]) -> str:
     """The line with the questions ticked off that values for these keys answer; what it asks beside them stays."""
+    return ticked_where(line, lambda question: any(answers(k, question) for k in keys))
+
+
+def ticked_where(line: str, is_answered: Callable[[str], bool]) -> str:
+    """The line with the questions ticked off that are answered; what it asks beside them stays."""
     asked = asked_in(line)
-    if not any(answers(k, q) for q in asked.open for k in keys):
+    now = [q for q in asked.open if is_answered(q)]
+    if not now:
         return line
-    still = [q for q in asked.open if not any(answers(k, q) for k in keys)]
-    done = [*asked.answered, *(q for q in asked.open if q not in still)]
+    still = [q for q in asked.open if q not in now]
+    done = [*asked.answered, *now]
     if still:
         return parted(line)[0] + MARK + "; ".join([*still, *(f"{_DONE}{q}" for q in done)])
     return parted(line)[0] + ANSWERED + "; ".join(done)

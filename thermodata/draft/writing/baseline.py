@@ -33,13 +33,6 @@ class _KnownChannel:
     axis: str | None
 
 
-def model_text(draft: Draft) -> str | None:
-    """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
-    said = {c.name: c.said for c in draft.channels}
-    known = {n: _KnownChannel(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
-    return _text(draft.campaign, {**known, **{c.name: _KnownChannel(c.quantity, c.at, None) for c in draft.derived}})
-
-
 def responses_of_draft(draft: Draft) -> list[str]:
     """The displacements of the tool that the first model of a draft is of, or could be: the one that it takes first."""
     said = {c.name: c.said for c in draft.channels}
@@ -50,8 +43,9 @@ def responses_of_draft(draft: Draft) -> list[str]:
 
 
 def model_text_of(campaign: Campaign, response: str | None = None) -> str | None:
-    """The same of a campaign file as it stands, with the places that were answered since its draft. response: one of
-    `responses_of`, the first where None."""
+    """The text of model.yaml of a campaign file as it stands, with the places that were answered since its draft; None
+    where no displacement with an axis is there, or no sensor drives a plain effect. response: one of `responses_of`,
+    the first where None."""
     return _text(campaign.id, _known(campaign), response)
 
 

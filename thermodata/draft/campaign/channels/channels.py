@@ -19,6 +19,7 @@ from thermodata.draft.probes.jumps import JumpTest, is_length, is_nameless
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called
 from thermodata.draft.signals.quantity.guessed import NOTHING, Guess
+from thermodata.draft.signals.told_before import as_told, name_told
 from thermodata.draft.signals.told_units.own_scale import scale_note
 from thermodata.draft.signals.told_units.two_units import with_both_units
 from thermodata.draft.words.axis import axis_of
@@ -69,7 +70,7 @@ def channels_of(group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], tak
     names = {*taken}
     for one in _each_once(found[:_MOST_SIGNALS], source.twice):
         said, note = said_of(one)
-        said = as_exported(said, one.signal)
+        said = as_told(as_exported(said, one.signal), one.signal)
         if left.takes(one, said):
             continue
         channel, jump = _channel(source, one, said, note, names)
@@ -109,7 +110,7 @@ def _channel(
     signal, twin = one.signal, one.signal.name in source.twice
     jump, said = _with_jump(one, said, source.jumps, twin)
     own = own_channel(split_unit(signal.name)[0]) if source.exported else None
-    name = channel_name(own or wished_name(with_series(signal), said), taken)
+    name = channel_name(own or name_told(signal) or wished_name(with_series(signal), said), taken)
     signed = source.exported and said.axis is not None and _is_signed(one)
     turned = _turned(source, name, one, said, jump, signed)
     only, lacking = _tests_with(one, source.group)
