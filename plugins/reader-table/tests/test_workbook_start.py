@@ -110,3 +110,23 @@ def test_blocks_beside_each_other_have_the_dates_of_their_titles(tmp_path: Path,
     beside = [[*a[:2], *between, *b[:2]] for a, b in zip(one, other, strict=True)]
     path = workbook(tmp_path / "b.xlsx", {"data": sheet(beside, (CLOCK, PLAIN, *([PLAIN] * blank), CLOCK, PLAIN))})
     assert len({int(t_ns[0]) for t_ns in load(Reader(), path, Source(timezone="UTC")).t_ns.values()}) == 1
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "days"),
+    [
+        ("Prova S4000  16/03/2026", "Prova S8000  18/03/2026", [0, 2]),
+        ("Prova 1  16/03/2026", "Prova 2  18/03/2026", [0, 2]),
+        ("Kalibriert 16.03.2026", "Kalibriert 18.03.2026", None),
+    ],
+)
+def test_a_title_may_name_its_test_beside_the_date(
+    tmp_path: Path, one: str, other: str, days: list[int] | None
+) -> None:
+    beside = [[*a[:2], None, *b[:2]] for a, b in zip(rows(one, ""), rows(other, ""), strict=True)]
+    path = workbook(tmp_path / "a.xlsx", {"data": sheet(beside, (CLOCK, PLAIN, PLAIN, CLOCK, PLAIN))})
+    data = load(Reader(), path, Source(timezone="UTC"))
+    assert data.recording.clock == ("relative" if days is None else "absolute")
+    if days is not None:
+        firsts = [t_ns[0] - MIDNIGHT - 480 * MINUTE_NS for t_ns in data.t_ns.values()]
+        assert firsts == [d * 1440 * MINUTE_NS for d in days]

@@ -126,7 +126,7 @@ def describe(table: Table, source: Source) -> Recording:
         elif len(zeros := {group.clock.zero_ns for group in reader.groups}) == 1:
             of_day = zeros.pop()
     if table.begin is not None:
-        notes.append(table.begin.note())
+        notes += [b.note() for b in (g.begin for g in table.groups) if b is not None] or [table.begin.note()]
     else:
         notes += _of_day_notes(table, source)
     if table.begin is not None or not table.absolute:

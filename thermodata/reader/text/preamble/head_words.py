@@ -103,6 +103,12 @@ def said_by(label: str) -> TimeLabel | None:
     return TimeLabel.MADE if TimeLabel.MADE in known else TimeLabel.BOOTED if TimeLabel.BOOTED in known else max(known)
 
 
+def is_of_another_time(text: str) -> bool:
+    """Whether a text speaks of what ended, of what was done to a sensor or a machine, or of when a file was made."""
+    words = re.findall(r"[^\W\d_]+", text.casefold())
+    return any(_OTHER.fullmatch(w) or _WORDS.get(w) is TimeLabel.MADE for w in words)
+
+
 def _names_a_start(words: Sequence[str]) -> bool:
     """Whether a label with words that nobody knows names a start: of what, is open."""
     began = any(_WORDS.get(w) is TimeLabel.BEGAN for w in words)

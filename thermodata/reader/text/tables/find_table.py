@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from pathlib import Path
@@ -22,19 +22,11 @@ from thermodata.reader.text.page.header.second_header import second_header
 from thermodata.reader.text.page.layout import Layout, find_layout
 from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.page.timed.group import STREAM, Group
-from thermodata.reader.text.preamble.begin import (
-    BY_HALF,
-    NOT_TAKEN,
-    Begin,
-    declared_start,
-    find_begin,
-    first_times,
-    unused_start,
-)
-from thermodata.reader.text.preamble.together import begin_later_ns
+from thermodata.reader.text.preamble.begin import BY_HALF
 from thermodata.reader.text.tables.head_lines import HeadLines, head_lines
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
+from thermodata.reader.text.tables.sample.begun import begin_above, begins_of_blocks, on_one_clock
 from thermodata.reader.text.tables.sample.look_at_columns import look_at_columns
 from thermodata.reader.text.tables.sample.sampled import Sampled, still_going
 from thermodata.reader.text.tables.sample.zone_named import zones_said
@@ -112,7 +104,9 @@ def find_table(
     table = replace(table, groups=groups)
     columns = look_at_columns(table, source.options.get("text") or (), whole.delimiter)
     above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
-    begin, doubt = _begin_above(table, above)
+    own, asked = begins_of_blocks(table, above)
+    begin, doubt = (own[0] if own else None, asked) if own or asked else begin_above(table, above)
+    groups = tuple(replace(g, begin=b) for g, b in zip(groups, own, strict=True)) if own else groups
     notes = [
         whole.sample.note,
         *layout.notes,
@@ -128,7 +122,7 @@ def find_table(
         delimiter=whole.delimiter,
         quoted=whole.quoted,
         layout=layout,
-        groups=groups if begin is not None else _on_one_clock(table),
+        groups=groups if begin is not None else on_one_clock(table),
         kinds=columns.kinds,
         decimal=columns.decimal,
         decimal_declared=columns.decimal_is_told,
@@ -209,30 +203,6 @@ def _with_time_formats(
         columns[0] = [c for c in columns[0] if clean(c)]
     forms = find_formats(names, columns, group.form, where, more)
     return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
-
-
-def _begin_above(table: Sampled, above: Iterable[list[str]]) -> tuple[Begin | None, str | None]:
-    """(when the rows began, as a line above them says; a note where one is not taken)."""
-    groups, said = table.groups, declared_start(table.said)
-    if any(g.absolute for g in groups):
-        return None, unused_start(said)
-    timed = groups[0]
-    first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, table.body)
-    begin, doubt = find_begin(list(above), first_rows, said, table.where)
-    if begin is None or len({g.of_day for g in groups}) == 1:
-        return begin, doubt
-    stands = f"'{begin.text[:60]}' stands above the rows, {NOT_TAKEN}"
-    return None, f"{stands}: some columns count from a start, others tell times of day"
-
-
-def _on_one_clock(table: Sampled) -> tuple[TimedGroup, ...]:
-    """Groups that tell times of day without a date, on the clock of the earliest."""
-    groups = table.groups
-    if len(groups) < 2 or not all(g.of_day for g in groups):
-        return groups
-    rows = [still_going(table.body, g.group, table.layout) for g in groups]
-    firsts = [first_times(g.group.time, None, g.formats, own) for g, own in zip(groups, rows, strict=True)]
-    return tuple(replace(g, later_ns=ns) for g, ns in zip(groups, begin_later_ns(firsts), strict=True))
 
 
 def _of_names(layout: Layout, kinds: Sequence[str | None]) -> Iterator[str]:

@@ -33,7 +33,8 @@ Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header
 class TimedGroup:
     """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
     that their headers, or a line above the rows, say, None where they say none; once: the date stands in some rows
-    only, for those behind it; above: that line; later_ns: by how much times of day begin after the earliest group's."""
+    only, for those behind it; above: that line; later_ns: by how much times of day begin after the earliest group's;
+    begin: what they count from, of a block that says so beside others."""
 
     stream: str
     group: Group
@@ -42,6 +43,7 @@ class TimedGroup:
     once: bool = False
     above: str = ""
     later_ns: int = 0
+    begin: Begin | None = None
 
     @property
     def of_day(self) -> bool:

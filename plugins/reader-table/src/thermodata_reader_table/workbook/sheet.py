@@ -17,8 +17,9 @@ from thermodata.reader.text.cells.time_forms.zone_words import stated_zone
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.page.layout import Layout
-from thermodata.reader.text.page.timed.group import STREAM, Group
+from thermodata.reader.text.page.timed.group import STREAM, Group, heads_of_blocks
 from thermodata.reader.text.preamble.begin import declared_start
+from thermodata.reader.text.preamble.titles import dated_titles
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.blocks.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.tables.sample.zone_named import named_note
@@ -29,7 +30,7 @@ from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook.book import Sheet
 from thermodata_reader_table.workbook.cells import seconds_of
 from thermodata_reader_table.workbook.numbers import NumberCells
-from thermodata_reader_table.workbook.start import Heads, begun
+from thermodata_reader_table.workbook.start import Heads, begun, texts_of
 from thermodata_reader_table.workbook.times import Times
 
 
@@ -151,16 +152,18 @@ class Table:
         """The head of each group: what stands above its own columns, where that dates every one of them, as the title
         of a block does beside others, and nobody declares which counts; else all of it."""
         whole: list[Sequence[Sequence[Any]]] = [self.head] * len(found)
-        if len(found) < 2 or any(s.absolute for s in found) or declared_start(self.source.table or {}) is not None:
+        if len(found) < 2 or any(s.absolute for s in found):
             return whole
-        firsts = [min((*g.time, *g.columns)) for g in self.layout.groups]
-        ends = [min((f for f in firsts if f > first), default=None) for first in firsts]
-        own = [[row[a:b] for row in self.head] for a, b in zip(firsts, ends, strict=True)]
-        dated = (
-            begun(was, Heads(above, self.columns, self.repeats), self.source, zone, self.where)[0].absolute
-            for was, above, zone in zip(found, own, zones, strict=True)
-        )
-        return list(own) if all(dated) else whole
+        declared, own = declared_start(self.source.table or {}), heads_of_blocks(self.layout.groups, self.head)
+        titles = dated_titles([texts_of(h) for h in own], declared) if all(s.of_day for s in found) else None
+        if declared is None:
+            dated = (
+                begun(was, Heads(above, self.columns, self.repeats), self.source, zone, self.where)[0].absolute
+                for was, above, zone in zip(found, own, zones, strict=True)
+            )
+            if all(dated):
+                return list(own)
+        return whole if titles is None else list(titles)
 
     def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
         """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time

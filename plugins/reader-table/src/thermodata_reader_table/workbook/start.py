@@ -45,9 +45,7 @@ def begun(times: Stamps, heads: Heads, source: Source, zone: str | None, where: 
         return Stamps(times.t_ns, True, (*times.notes, unused)) if unused else times, []
     since_ns = np.where(times.t_ns == NAT, NAT, times.t_ns + np.int64(times.zero_ns))
     first = since_ns[since_ns != NAT][:ROWS].tolist()
-    begin, doubt = find_begin(
-        [_texts(row) for row in heads.above], FirstTimes(tuple(first), times.of_day), declared, where
-    )
+    begin, doubt = find_begin(texts_of(heads.above), FirstTimes(tuple(first), times.of_day), declared, where)
     if begin is None:
         notes = (*times.notes, *([doubt] if doubt else []))
         return Stamps(times.t_ns, False, notes, times.zero_ns, times.of_day), []
@@ -75,6 +73,11 @@ def _further_starts(since_ns: Int1D, heads: Heads, begin: Begin) -> dict[int, Be
             further = begun_anew([_texts([c[row] for c in heads.columns])], begin)
             found |= {} if further is None else {row: further}
     return found
+
+
+def texts_of(head: Sequence[Sequence[Any]]) -> list[list[str]]:
+    """The filled cells of the rows above the data, as a text would have them."""
+    return [_texts(row) for row in head]
 
 
 def _texts(row: Sequence[Any]) -> list[str]:

@@ -43,7 +43,8 @@ class RowReader:
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
         self.sixty = SecondsSixty()
         self.groups = [
-            GroupRows(table, RowClock(timed, timed.stated or source.timezone, table.begin)) for timed in table.groups
+            GroupRows(table, RowClock(timed, timed.stated or source.timezone, timed.begin or table.begin))
+            for timed in table.groups
         ]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
