@@ -6,7 +6,7 @@ signals are `sheet/name`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -25,6 +25,7 @@ from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook.book import Book, book_of
+from thermodata_reader_table.workbook.follow_on import joined
 from thermodata_reader_table.workbook.related import with_related
 from thermodata_reader_table.workbook.series import taken_apart
 from thermodata_reader_table.workbook.sheet import Stream, Table
@@ -49,12 +50,7 @@ def read(path: Path, source: Source) -> Read:
     """FormatError where no sheet is a table (the reason of the first), or some have dates and others not."""
     book = book_of(path, source)
     tables, notes = layouts_of(book.sheets, source, path.name)
-    several = len(tables) > 1
-    if several:
-        notes.append(
-            f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
-            "declare table: {sheet: ...}: " + ", ".join(tables)
-        )
+    several, first_note = len(tables) > 1, len(notes)
     read_sheets, found = _streams(path, source, book, tables, notes, start_above=True)
     begun = [sheet for sheet, table in read_sheets.items() if table.begun]
     if begun and len({s.times.absolute for streams in found.values() for s in streams}) > 1:
@@ -81,6 +77,10 @@ def read(path: Path, source: Source) -> Read:
         del found[sheet]
     streams = [s for made in found.values() for s in made]
     groups = [g for sheet in found for g in tables[sheet].groups]
+    if several:
+        whole = joined(found)
+        streams, groups = ([whole], groups[:1]) if whole is not None else (streams, groups)
+        notes.insert(first_note, _several(list(tables), whole is not None))
     for kind, count in book.odd.items():
         they = "it is" if count == 1 else "they are"
         if count and kind == "hidden":
@@ -91,6 +91,14 @@ def read(path: Path, source: Source) -> Read:
     streams, of_day_ns = _on_one_clock(streams)
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns, of_day_ns)
+
+
+def _several(sheets: Sequence[str], go_on: bool) -> str:
+    """The note on several sheets that are tables."""
+    each = "each a stream; signals are called SHEET/NAME"
+    one = "which follow each other without a gap, and are read as one"
+    alone = "for one alone declare table: {sheet: ...}: " + ", ".join(sheets)
+    return f"{len(sheets)} sheets are tables, {one if go_on else each}; {alone}"
 
 
 def _on_one_clock(streams: list[Stream]) -> tuple[list[Stream], int | None]:
@@ -174,6 +182,6 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`sheet 'data', row 813` of a row (counted from 0) of a stream; None where there is no such row."""
     for held in read(path, source).streams:
         if held.name == stream:
-            at = held.at[held.times.t_ns != NAT]
-            return f"sheet '{held.sheet}', row {at[row]}" if row < at.size else None
+            rows = np.flatnonzero(held.times.t_ns != NAT)
+            return held.place(int(rows[row])) if row < rows.size else None
     return None

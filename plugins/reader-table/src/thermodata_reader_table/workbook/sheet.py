@@ -39,7 +39,8 @@ class Stream:
     """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
     flags: of columns that have any, shape (n,): of cells that say overload; empty: cells that hold nothing, of columns
     that have any; sheet: where it stands; percent: columns that hold a fraction and show it in per cent; said:
-    properties of each; held: columns whose values stand over empty cells."""
+    properties of each; held: columns whose values stand over empty cells; sheets: of a stream that goes
+    on through several, each with the number of its rows."""
 
     name: str
     times: Stamps
@@ -52,6 +53,13 @@ class Stream:
     percent: frozenset[str]
     said: dict[str, dict[str, str]]
     held: frozenset[str] = frozenset()
+    sheets: tuple[tuple[str, int], ...] = ()
+
+    def place(self, row: int) -> str:
+        """The sheet and its row of a row of the stream, counted from 0."""
+        ends = np.cumsum([rows for _, rows in self.sheets])
+        home = self.sheets[int(np.searchsorted(ends, row, "right"))][0] if self.sheets else self.sheet
+        return f"sheet '{home}', row {self.at[row]}"
 
 
 class Table:
