@@ -11,6 +11,8 @@ import pytest
 import yaml
 
 from tests.commands import Said, Say
+from thermodata.draft.writing.fill_in import filled_in
+from thermodata.draft.writing.questions import questions
 
 START = datetime(2026, 4, 17, 8)
 SENSORS = {"bearing_front": (22.0, 0.05), "hall": (20.0, 0.01), "probe_Z": (0.0, -0.3), "spindle_speed": (0.0, 25.0)}
@@ -129,3 +131,69 @@ def test_what_is_open_for_all_sensors_alike_is_written_out_once(
     for what in asked:
         assert text.count(f"{what}? as in 'bed'") == 2
     assert text.count("; the same in each of hall, probe_Z") == len(asked)
+
+
+def _through(folder: Path, names: list[str], apart_h: int = 0) -> None:
+    """Two tests of an hour, and loggers of a value a minute that ran through both, or each in its own hours."""
+    for hour in (1, 4):
+        lines = ["time,dZ [um],spindle speed [rpm]"]
+        for k in range(360):
+            t = START + timedelta(hours=hour, seconds=10 * k)
+            lines.append(f"{t:%Y-%m-%dT%H:%M:%SZ},{k / 9:.2f},{9000 * (k > 5)}")
+        (folder / f"run{hour}.csv").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    for n, name in enumerate(names):
+        lines = ["Date/Time,Unit,Value"]
+        for k in range(360):
+            t = START + timedelta(hours=apart_h * n, minutes=k)
+            lines.append(f"{t:%Y-%m-%dT%H:%M:%S},C,{20 + n + k / 100:.2f}")
+        (folder / f"{name}.csv").write_text("\n".join([*lines, ""]), encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["ibutton_{}", "{}", "{}_2026-04-17", "btn {} log"])
+def test_loggers_that_ran_through_all_tests_are_a_source_each(tmp_path: Path, say: Say, name: str) -> None:
+    _through(tmp_path, [name.format(place) for place in ("bed", "hall", "column_left")])
+    found = _drafted(tmp_path, say)
+    assert _ids(found) == ["run1", "run4"]
+    channels, sources = found["channels"], found["sources"]
+    assert isinstance(channels, dict)
+    assert isinstance(sources, dict)
+    temperatures = {c["at"]: c["source"] for c in channels.values() if c["quantity"] == "temperature"}
+    assert set(temperatures) == {"bed", "hall", "column.left"}
+    assert {sources[s]["files"] for s in temperatures.values()} == {
+        name.format(place) + ".csv" for place in ("bed", "hall", "column_left")
+    }
+
+
+def test_a_legend_says_what_their_serials_are(tmp_path: Path, say: Say) -> None:
+    serials = {"3F00A4B5": "spindle bearing front", "8E00198F": "bed", "D20021B0": "hall top"}
+    _through(tmp_path, list(serials))
+    (tmp_path / "sensors.txt").write_text("\n".join([f"{s} = {place}" for s, place in serials.items()]))
+    channels = _drafted(tmp_path, say)["channels"]
+    assert isinstance(channels, dict)
+    at = {c["at"] for c in channels.values() if c["quantity"] == "temperature"}
+    assert at == {"spindle.bearing.front", "bed", "hall.top"}
+
+
+@pytest.mark.parametrize(("names", "apart_h"), [(["1", "2", "3"], 0), (["bed", "hall", "column"], 12)])
+def test_numbers_and_loggers_that_ran_one_after_the_other_are_no_sensors(
+    tmp_path: Path, say: Say, names: list[str], apart_h: int
+) -> None:
+    _through(tmp_path, names, apart_h)
+    sources = _drafted(tmp_path, say)["sources"]
+    assert isinstance(sources, dict)
+    assert len(sources) == 2
+
+
+def test_the_form_asks_once_what_is_open_for_all_alike_and_fills_each(tmp_path: Path, say: Say) -> None:
+    _through(tmp_path, ["bed", "hall", "column"])
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    zones = [q.name for q in questions(path.read_text()) if q.kind == "zone"]
+    assert zones == ["sources.bed.timezone"]
+    text = filled_in(path.read_text(), {"sources.bed.timezone": "Europe/Prague"})
+    sources = yaml.safe_load(text)["sources"]
+    assert [sources[s].get("timezone") for s in ("bed", "hall", "column")] == ["Europe/Prague"] * 3
+    assert not any("# ? timezone" in line for line in text.splitlines())
+    own = filled_in(path.read_text(), {"sources.bed.timezone": "Europe/Prague", "sources.hall.timezone": "UTC"})
+    assert yaml.safe_load(own)["sources"]["hall"]["timezone"] == "UTC"
+    assert yaml.safe_load(own)["sources"]["column"]["timezone"] == "Europe/Prague"

@@ -20,6 +20,8 @@ _HEADS = (
 )
 # "facing: ?, increases_with: ?" in the words of a question ends none
 _NEXT = re.compile(rf"(?<=\S\?)[,;] |[,;] (?={_DONE}|{_HEADS})")
+# a question of a source that refers to the one of another: "timezone? as in 'bed'"
+_REFERS = re.compile(r"[^?:;(]+\? as in '(?P<first>[^']+)'")
 # key of an answer -> how the questions begin that it answers; any of the line where it stands in none
 _OF = {
     "at": "at:",
@@ -61,6 +63,12 @@ def asked_in(line: str) -> AskedInLine:
 def answers(key: str, question: str) -> bool:
     """Whether a value for a key, as the last name of where it stands, answers a question of its line."""
     return key not in _OF or re.match(_OF[key], question) is not None
+
+
+def refers_to(question: str) -> str | None:
+    """The source whose question is asked for this one too; None of a question of its own."""
+    found = _REFERS.fullmatch(question)
+    return found["first"] if found is not None else None
 
 
 def ticked(line: str, keys: Sequence[str]) -> str:

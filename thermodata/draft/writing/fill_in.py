@@ -9,7 +9,16 @@ from pathlib import Path
 from thermodata.draft.probes.which_way import calibration_for, facing_and_way, its_name
 from thermodata.draft.writing.asked import ticked
 from thermodata.draft.writing.in_line import set_in_line
-from thermodata.draft.writing.questions import OF_TIME, UNREAD, asked_places, last_of, mapping_of, name_of, value_of
+from thermodata.draft.writing.questions import (
+    OF_TIME,
+    UNREAD,
+    asked_elsewhere,
+    asked_places,
+    last_of,
+    mapping_of,
+    name_of,
+    value_of,
+)
 from thermodata.draft.writing.unread import come_to_life, quantity_and_unit, unread
 from thermodata.draft.writing.write import flow, scalar
 from thermodata.errors import UsageError
@@ -32,7 +41,7 @@ def filled_in(text: str, given: Mapping[str, str]) -> str:
     left_out = unread(lines)
     new: dict[str, str] = {}
     done: dict[int, list[str]] = {}
-    for name, answer in given.items():
+    for name, answer in _of_all_alike(given, known, document, lines).items():
         channel = name.removeprefix(UNREAD)
         if name not in known and not (name.startswith(UNREAD) and channel in left_out):
             raise UsageError(
@@ -59,6 +68,19 @@ def filled_in(text: str, given: Mapping[str, str]) -> str:
     filled = "\n".join(_with_calibrations(lines, document, new)) + "\n"
     parse_campaign(filled, "campaign.yaml")
     return filled
+
+
+def _of_all_alike(
+    given: Mapping[str, str], known: Mapping[str, tuple[Place, str]], document: Document, lines: list[str]
+) -> dict[str, str]:
+    """The answers, those of a source for all whose lines refer to its question as well."""
+    found = dict(given)
+    for name, (place, key) in known.items():
+        first = asked_elsewhere(document, lines, place, key)
+        asked = name_of(("sources", first), key) if first is not None else ""
+        if given.get(asked) and not given.get(name):
+            found[name] = given[asked]
+    return found
 
 
 def _put(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from thermodata.draft.probes.which_way import may_be_asked, way_of, ways
-from thermodata.draft.writing.asked import answers, asked_in
+from thermodata.draft.writing.asked import answers, asked_in, refers_to
 from thermodata.draft.writing.unread import WHAT, unread
 from thermodata.schema.files.campaign import Role, TestKind
 from thermodata.schema.strict.lines import Document, Place, parse_document
@@ -88,7 +88,15 @@ def questions(text: str) -> list[Question]:
         Question(f"{UNREAD}{name}", name, "quantity", "what", "", hint, WHAT)
         for name, (_, hint) in unread(lines).items()
     ]
-    return [*left_out, *(_question(lines, document, place, key) for place, key in asked_places(document, lines))]
+    own = ((p, key) for p, key in asked_places(document, lines) if asked_elsewhere(document, lines, p, key) is None)
+    return [*left_out, *(_question(lines, document, place, key) for place, key in own)]
+
+
+def asked_elsewhere(document: Document, lines: list[str], place: Place, key: str) -> str | None:
+    """The source whose line asks what this place leaves open, for all that are alike; None where it asks itself."""
+    asked = asked_in(lines[document.line[place] - 1]).open
+    own = [q for q in asked if answers(last_of(key), q)]
+    return refers_to(own[0]) if len(own) == 1 and place[0] == "sources" else None
 
 
 def only_in_file(text: str) -> list[InFile]:

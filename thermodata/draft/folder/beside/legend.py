@@ -13,6 +13,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.beside.said_twice import begins_with_a_time, of_names
 from thermodata.draft.folder.beside.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, readable
 from thermodata.draft.folder.scan import Scan
+from thermodata.draft.signals.guess import SENSOR
 from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
@@ -71,7 +72,9 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     """The logs, their signals described by the first table that names them; and a note on it. A description that stands
     in a log itself counts more. What a workbook of our own says is of its own sheets."""
     names = {word_of(s.name) for f in found.logs for s in f.signals}
-    logs_of_many = [f for f in found.logs if len(f.signals) > 1]  # a file of one may be called as its signal is
+    names |= {s.properties[SENSOR].casefold() for f in found.logs for s in f.signals if SENSOR in s.properties}
+    # a file of one signal may be called as that is, and one of a sensor as the sensor
+    logs_of_many = [f for f in found.logs if len(f.signals) > 1 and f.sensor is None]
     tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
     own: dict[str, Legend] = {}
@@ -214,7 +217,8 @@ def described_by(file: RawFile, legend: Legend) -> RawFile:
     """The file, its signals described by a legend where it does not describe them itself."""
 
     def told(signal: Signal) -> Signal:
-        said = legend.says.get(word_of(signal.name))
+        sensor = signal.properties.get(SENSOR, "").casefold()  # of which the file is, whatever it calls its values
+        said = legend.says.get(sensor) if sensor in legend.says else legend.says.get(word_of(signal.name))
         if said is None or signal.properties.get("description"):
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}

@@ -1,5 +1,5 @@
 """Files of one sensor each: 'T1/hall.csv', 'T1/probe_Z.csv', 'T2/hall.csv' are two tests, whose channels are called as
-their files are."""
+their files are. Loggers that ran through all tests have one file each: 'ibutton_bed.csv', 'ibutton_hall.csv'."""
 
 from __future__ import annotations
 
@@ -24,6 +24,9 @@ _STAMP = re.compile(
     r"[_\-. ]*(?<!\d)(?:\d{4}[-_.]?\d{2}[-_.]?\d{2}|\d{6})(?:[-_.T ]?\d{2}[-_.h]?\d{2}(?:[-_.m]?\d{2})?)?(?!\d)"
 )
 _PIECE = r"[_\-. ]+"
+_NEAR_NS = 15 * 60 * 1_000_000_000  # by which a test may begin before the loggers that ran through it
+_FEWEST_TESTS = 2
+_SENSOR = re.compile(r"[^\W\d]")  # what a sensor is called by has a letter; numbers alone count recordings
 
 
 def with_their_sensors(files: Sequence[RawFile]) -> tuple[RawFile, ...]:
@@ -41,6 +44,11 @@ def with_their_sensors(files: Sequence[RawFile]) -> tuple[RawFile, ...]:
                 shared = {name for name, n in sensors.items() if n > 1}
                 found |= {id(f): _of_sensor(f, named[id(f)], shared) for f in group}
                 break
+        else:
+            others = [f for f in files if not any(f is own for own in group)]
+            if named := _through_all(group, others):
+                shared = {s.name for f in group for s in f.signals}
+                found |= {id(f): _of_sensor(f, named[id(f)], shared) for f in group}
     return tuple(found.get(id(f), f) for f in files)
 
 
@@ -95,6 +103,30 @@ def _sensors(files: Sequence[RawFile], split: Callable[[PurePosixPath], tuple[st
     if not every or not (_ran_at_once(list(of_test.values())) or _by_names(split, tests_of, of_test)):
         return {}
     return {id(file): sensor for named in of_test.values() for sensor, file in named.items()}
+
+
+def _through_all(files: Sequence[RawFile], others: Sequence[RawFile]) -> dict[int, str]:
+    """id of a file -> its sensor, where each of several ran while the others did, and tests began meanwhile: loggers
+    that were left on the machine, called as what is not the same in all of their names. Empty where that is not so."""
+    if len(files) < 2 or any(f.start_ns is None or f.sample.last_ns is None for f in files):
+        return {}
+    if not all(at_once(a.start_ns, a.sample, b.start_ns, b.sample) for a, b in combinations(files, 2)):
+        return {}
+    begin = max(f.start_ns for f in files if f.start_ns is not None)
+    end = min(f.sample.last_ns for f in files if f.sample.last_ns is not None)
+    tests = {f.start_ns for f in others if f.start_ns is not None and begin - _NEAR_NS <= f.start_ns <= end}
+    names = _but_common([re.split(_PIECE, _STAMP.sub("", f.path.stem)) for f in files])
+    if len(tests) < _FEWEST_TESTS or len(set(names)) < len(names) or not all(map(_SENSOR.search, names)):
+        return {}
+    return {id(file): name for file, name in zip(files, names, strict=True)}
+
+
+def _but_common(names: Sequence[list[str]]) -> list[str]:
+    """Names without the pieces that all of them begin and end with."""
+    least = min(map(len, names))
+    lead = next((k for k in range(least) if len({n[k].casefold() for n in names}) > 1), least)
+    trail = next((k for k in range(least - lead) if len({n[-1 - k].casefold() for n in names}) > 1), 0)
+    return [" ".join(n[lead : len(n) - trail]) for n in names]
 
 
 def _ran_at_once(tests: Sequence[dict[str, RawFile]]) -> bool:
