@@ -245,7 +245,8 @@ def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
         if table.stamped:
             chunk = replace(chunk, data=all_with_stamp(chunk.data, table.stamped))
         if table.blanks:
-            chunk = replace(chunk, data=parted_bytes(chunk.data))
+            parted = parted_bytes if table.columns is None else table.columns.parted_bytes
+            chunk = replace(chunk, data=parted(chunk.data))
         yield from reader.read(_without_header(chunk, table.layout.first))
         if reader.stopped:
             break

@@ -8,7 +8,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.text.cells.lines import delimiter as delimiters
 from thermodata.reader.text.cells.lines.named_values import TIME as NAMED_TIME
@@ -98,12 +98,19 @@ def find_table(
     whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
-    lines, table = _sample_table(whole, said, where, stream, strict)
+    try:
+        lines, table = _sample_table(whole, said, where, stream, strict)
+    except FormatError as error:
+        if whole.columns is None or isinstance(error, QuestionError):
+            raise
+        whole = head_lines(head, first, said, where, cut_names=True)
+        lines, table = _cut_by_columns(whole, said, where, stream, error)
     layout, preamble = table.layout, lines.head[: table.layout.first]
     groups, zone, open_zone = zones_said(table.groups, layout.names, map(lines.cells, preamble), source.timezone)
     table = replace(table, groups=groups)
     columns = look_at_columns(table, source.options.get("text") or (), whole.delimiter)
-    above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
+    # what blanks part in a title are its parts
+    above = [[line] for line in head[: table.layout.first]] if whole.blanks else [*map(whole.cells, preamble)]
     own, asked = begins_of_blocks(table, above)
     begin, doubt = (own[0] if own else None, asked) if own or asked else begin_above(table, above)
     groups = tuple(replace(g, begin=b) for g, b in zip(groups, own, strict=True)) if own else groups
@@ -130,6 +137,7 @@ def find_table(
         qualities=columns.qualities,
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
+        columns=whole.columns,
         named=whole.named,
         stamped=whole.stamped,
         begin=begin,
@@ -139,6 +147,18 @@ def find_table(
         units_told=columns.units_told,
         stands=columns.stands,
     )
+
+
+def _cut_by_columns(
+    whole: HeadLines, said: Mapping[str, Any], where: str, stream: str, error: FormatError
+) -> tuple[HeadLines, Sampled]:
+    """The same where names hold blanks, and stand over columns at fixed places. error: of names that blanks part."""
+    try:
+        return _sample_table(whole, said, where, stream, strict=True)
+    except QuestionError:
+        raise
+    except FormatError:
+        raise error from None
 
 
 def _sample_table(

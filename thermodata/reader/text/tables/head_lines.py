@@ -13,6 +13,7 @@ from thermodata.reader.text.cells.lines.named_values import in_columns, named_va
 from thermodata.reader.text.cells.lines.stamped_lines import stamped_by, with_stamp
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample
+from thermodata.reader.text.rows.fixed_columns import FixedColumns, fixed_columns
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
 _HEAD_LINES = 500  # in which the layout shows
@@ -45,7 +46,8 @@ class HeadLines:
     """The first lines, and what parts their cells. top: those in which the layout shows; sample: all that was
     sampled of the file. blanks: whether runs of blanks part cells: there are tabs in their place. quoted: whether cells
     may stand in quotes. named: the names that stand before each value, which are in columns here. stamped: what parts
-    cells of lines before which a terminal wrote its clock, which is the first cell here; '' where none did."""
+    cells of lines before which a terminal wrote its clock, which is the first cell here; '' where none did. columns:
+    where cells stand that blanks part, if these are fixed places."""
 
     head: Sequence[str]
     top: Sequence[str]
@@ -55,6 +57,7 @@ class HeadLines:
     quoted: bool
     named: tuple[str, ...] = ()
     stamped: str = ""
+    columns: FixedColumns | None = None
 
     def cells(self, line: str) -> list[str]:
         """The cells of a line, without blanks and quotes around them."""
@@ -80,9 +83,12 @@ class HeadLines:
         return replace(self, head=self.head[:end], top=self.top[:end], sample=replace(self.sample, rest=()))
 
 
-def head_lines(head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str) -> HeadLines:
+def head_lines(
+    head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str, *, cut_names: bool = False
+) -> HeadLines:
     """The first lines with what parts their cells, declared or found. first: all that was sampled of the file; said:
-    what is declared of the table. FormatError where nothing parts cells."""
+    what is declared of the table; cut_names: where cells stand at fixed places, names that hold blanks are known by
+    these. FormatError where nothing parts cells."""
     top = top_of(head)
     if not said.get("delimiter") and (named := named_values((*top, *first.rest))):
         each = partial(in_columns, names=named)
@@ -98,6 +104,9 @@ def head_lines(head: Sequence[str], first: Sample, said: Mapping[str, Any], wher
         return HeadLines(head, top_of(head), first, stamped, False, quoted, stamped=stamped)
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     delimiter = delimiter or delimiters.find_delimiter(top)
+    columns = fixed_columns((*top, *first.rest)) if delimiter in (None, delimiters.BLANKS) else None
+    if delimiter is None and columns is not None:
+        delimiter = delimiters.BLANKS
     if delimiter is None:
         raise FormatError(
             "no columns found",
@@ -108,12 +117,10 @@ def head_lines(head: Sequence[str], first: Sample, said: Mapping[str, Any], wher
         )
     blanks = delimiter == delimiters.BLANKS
     if blanks:
-        delimiter, head = "\t", [delimiters.parted(line) for line in head]
-        first = replace(
-            first,
-            head=tuple(map(delimiters.parted, first.head)),
-            rest=tuple(map(delimiters.parted, first.rest)),
-        )
+        columns = columns.with_heads() if columns is not None and cut_names else columns
+        parted = delimiters.parted if columns is None else columns.parted
+        delimiter, head = "\t", list(map(parted, head))
+        first = replace(first, head=tuple(map(parted, first.head)), rest=tuple(map(parted, first.rest)))
         top = top_of(head)
     quoted = any('"' in line for line in (*head, *first.rest))
-    return HeadLines(head, top, first, delimiter, blanks, quoted)
+    return HeadLines(head, top, first, delimiter, blanks, quoted, columns=columns)

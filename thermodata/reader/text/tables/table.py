@@ -21,6 +21,7 @@ from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.page.timed.group import Group
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_scales
+from thermodata.reader.text.rows.fixed_columns import FixedColumns
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.rows.qualities import Qualities
 from thermodata.reader.text.times.several_cells.date_parts import PART
@@ -85,7 +86,8 @@ def header_lines(head: Sequence[str], first: int, cells: Callable[[str], Sequenc
 class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: the dtype of each
     column, None of one without values; qualities: what columns say of others; blanks: whether any number of them parts
-    its cells: lines are looked at, and read, with tabs in their place; named: names that stand before each value of a
+    its cells: lines are looked at, and read, with tabs in their place; columns: where these stand, if at fixed places,
+    so that a cell may be blank; named: names that stand before each value of a
     line, which become columns so; stamped: what parts the cells of lines behind the clock of a terminal, '' of others;
     begin: what its times count from, where its head says so; zone: what a line above the rows says of it, and that
     line; series: how rows of several sensors or hosts are taken apart; unit: the column that holds the one of its
@@ -106,6 +108,7 @@ class Table:
     qualities: Qualities
     notes: tuple[str, ...]
     blanks: bool = False
+    columns: FixedColumns | None = None
     named: tuple[str, ...] = ()
     stamped: str = ""
     begin: Begin | None = None
