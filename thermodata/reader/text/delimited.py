@@ -242,6 +242,8 @@ def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     for chunk in chunks(path, table.sample.encoding):
         if table.named:
             chunk = replace(chunk, data=all_in_columns(chunk.data, table.named))
+        if table.schedules is not None:
+            chunk = replace(chunk, data=table.schedules.all_parted(chunk.data))
         if table.stamped:
             chunk = replace(chunk, data=all_with_stamp(chunk.data, table.stamped))
         if table.blanks:

@@ -98,6 +98,8 @@ def find_table(
     whole = head_lines(head, first, said, where)
     if whole.named:
         said = {"names": [NAMED_TIME, *whole.named], **said}
+    if whole.schedules is not None and len(whole.schedules.times) > 1:
+        said = {"time": [{"column": column} for column in whole.schedules.times], **said}
     try:
         lines, table = _sample_table(whole, said, where, stream, strict)
     except FormatError as error:
@@ -138,6 +140,7 @@ def find_table(
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
         columns=whole.columns,
+        schedules=whole.schedules,
         named=whole.named,
         stamped=whole.stamped,
         begin=begin,

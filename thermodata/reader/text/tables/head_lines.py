@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.lines import delimiter as delimiters
 from thermodata.reader.text.cells.lines.named_values import in_columns, named_values
+from thermodata.reader.text.cells.lines.schedules import Schedules, schedules_of
 from thermodata.reader.text.cells.lines.stamped_lines import stamped_by, with_stamp
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample
@@ -47,7 +48,8 @@ class HeadLines:
     sampled of the file. blanks: whether runs of blanks part cells: there are tabs in their place. quoted: whether cells
     may stand in quotes. named: the names that stand before each value, which are in columns here. stamped: what parts
     cells of lines before which a terminal wrote its clock, which is the first cell here; '' where none did. columns:
-    where cells stand that blanks part, if these are fixed places."""
+    where cells stand that blanks part, if these are fixed places. schedules: of a dataTaker, each with its own time
+    here."""
 
     head: Sequence[str]
     top: Sequence[str]
@@ -58,6 +60,7 @@ class HeadLines:
     named: tuple[str, ...] = ()
     stamped: str = ""
     columns: FixedColumns | None = None
+    schedules: Schedules | None = None
 
     def cells(self, line: str) -> list[str]:
         """The cells of a line, without blanks and quotes around them."""
@@ -95,6 +98,12 @@ def head_lines(
         first = replace(first, head=tuple(map(each, first.head)), rest=tuple(map(each, first.rest)))
         head = list(map(each, head))
         return HeadLines(head, top_of(head), first, "\t", False, False, named)
+    if not said.get("delimiter") and (schedules := schedules_of((*top, *first.rest))) is not None:
+        first = replace(
+            first, head=tuple(map(schedules.parted, first.head)), rest=tuple(map(schedules.parted, first.rest))
+        )
+        head = list(map(schedules.parted, head))
+        return HeadLines(head, top_of(head), first, ",", False, True, schedules=schedules)
     stamped = "" if said.get("delimiter") else stamped_by((*top, *first.rest))
     if stamped:
         with_time = partial(with_stamp, delimiter=stamped)

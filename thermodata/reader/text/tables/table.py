@@ -13,6 +13,7 @@ from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.signals.series import Series
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.cells.lines.delimiter import fields
+from thermodata.reader.text.cells.lines.schedules import Schedules
 from thermodata.reader.text.cells.time_forms.time_pattern import TimeFormat
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
@@ -87,13 +88,13 @@ class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: the dtype of each
     column, None of one without values; qualities: what columns say of others; blanks: whether any number of them parts
     its cells: lines are looked at, and read, with tabs in their place; columns: where these stand, if at fixed places,
-    so that a cell may be blank; named: names that stand before each value of a
-    line, which become columns so; stamped: what parts the cells of lines behind the clock of a terminal, '' of others;
-    begin: what its times count from, where its head says so; zone: what a line above the rows says of it, and that
-    line; series: how rows of several sensors or hosts are taken apart; unit: the column that holds the one of its
-    numbers; paired: those that each hold the one of another column, as their names say; units_told: the note on a
-    column of units, of rows that are of no series; stands: columns whose empty cells say that the value before them
-    still stands."""
+    so that a cell may be blank; schedules: of a dataTaker, whose lines are read with a time before each; named: names
+    that stand before each value of a line, which become columns so; stamped: what parts the cells of lines behind the
+    clock of a terminal, '' of others; begin: what its times count from, where its head says so; zone: what a line above
+    the rows says of it, and that line; series: how rows of several sensors or hosts are taken apart; unit: the column
+    that holds the one of its numbers; paired: those that each hold the one of another column, as their names say;
+    units_told: the note on a column of units, of rows that are of no series; stands: columns whose empty cells say that
+    the value before them still stands."""
 
     name: str
     sample: Sample
@@ -109,6 +110,7 @@ class Table:
     notes: tuple[str, ...]
     blanks: bool = False
     columns: FixedColumns | None = None
+    schedules: Schedules | None = None
     named: tuple[str, ...] = ()
     stamped: str = ""
     begin: Begin | None = None
