@@ -79,3 +79,13 @@ def test_a_declared_zone_and_one_in_the_cells_come_first(tmp_path: Path) -> None
     assert described(tmp_path, "Zeitzone: UTC+3", zone="Europe/Prague").start_ns == EIGHT - HOUR
     zoned = [ROWS[0], *(row.replace(";", "+02:00;") for row in ROWS[1:])]
     assert described(tmp_path, "Zeitzone: UTC+3", zoned).start_ns == EIGHT - 2 * HOUR
+
+
+def test_clocks_of_t_and_d_that_are_put_ahead_leave_the_zone_open(tmp_path: Path) -> None:
+    found = described(tmp_path, "時差:GMT+9:00/夏時間:on")
+    assert found.start_ns == EIGHT
+    said = "the head says '時差: GMT+9:00; 夏時間: on', whose clocks may be put ahead in summer or not"
+    assert any(n.startswith(said) and n.endswith("timezone: Etc/GMT-9 where they never are") for n in found.notes)
+    declared = described(tmp_path, "時差:GMT+9:00/夏時間:on", zone="Asia/Tokyo")
+    assert declared.start_ns == EIGHT - 9 * HOUR
+    assert not any("夏時間" in n for n in declared.notes)

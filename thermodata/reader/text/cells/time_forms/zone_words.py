@@ -6,7 +6,7 @@ CST may be Chicago, Shanghai or Havana: such a word is asked about, never taken 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 _HOUR_NS = 3600 * 1_000_000_000
 # hours east of Greenwich; those of Europe in English, German and Czech, those of the United States by RFC 5322
@@ -133,7 +133,21 @@ _OFFSET_ALONE = re.compile(
     r"(?i)\(?(?:UTC|GMT)?\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?00)?(?:\s?h)?\)?|UTC|GMT|Z"
 )
 
-_WITHOUT_SUMMER = re.compile(r"(?:時差|时差) ?[:：] ?(?P<offset>[^/]{1,12})/ ?(?:夏時間|夏令时) ?[:：] ?off")  # T&D
+# of T&D: '時差:GMT+9:00/夏時間:off'
+_WITH_SUMMER = re.compile(
+    r"(?:時差|时差) ?[:：] ?(?P<offset>[^/]{1,12})/ ?(?:夏時間|夏令时) ?[:：] ?(?P<saving>on|off)"
+)
+
+
+def offset_and_saving(lines: Iterable[Sequence[str]]) -> Iterator[Sequence[str]]:
+    """The lines, an offset and whether clocks are put ahead in summer, which T&D writes into one, as two."""
+    for cells in lines:
+        text = " ".join(c.strip() for c in cells if c.strip()).strip("\"' ")
+        if (both := _WITH_SUMMER.match(text)) is None:
+            yield cells
+        else:
+            yield [f"時差: {both['offset']}"]
+            yield [f"夏時間: {both['saving']}"]
 
 
 def zone_above(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
@@ -142,8 +156,6 @@ def zone_above(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
     found: dict[str, str] = {}
     for cells in lines:
         text = " ".join(c.strip() for c in cells if c.strip()).strip("#%;/* \t\"'")
-        if (one := _WITHOUT_SUMMER.match(text)) is not None:
-            text = f"時差: {one['offset']}"
         label, mark, value = re.sub(r"\s*[=;]\s*|\s*:\s+", ": ", text, count=1).partition(": ")
         if not mark and (word := _ABOVE.match(text)):
             label, value = word[0], text[word.end() :]

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from thermodata.reader.text.cells.time_forms.zone_words import HOURS, zone_above
+from thermodata.reader.text.cells.time_forms.zone_words import HOURS, offset_and_saving, zone_above
 from thermodata.reader.text.preamble.zone_places import places_above, zone_by_name
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.times.zone import utc_offset_ns
@@ -49,7 +49,7 @@ def zones_said(
 ) -> tuple[tuple[TimedGroup, ...], tuple[str, str] | None, str | None]:
     """(the groups with the zone of the lines above them where that is sure and none is declared; what zone is said at
     all, and where; the note on one that is not taken, for it is open). names: of the columns."""
-    lines = list(above)
+    lines = list(offset_and_saving(above))
     zone, saving = zone_above(lines), saving_on(lines)
     if saving is not None and zone is not None:
         return groups, None, _note_of_open_zone(f"{zone[1]}; {saving}", zone[0]) if timezone is None else None
