@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.finding.explain import explain
+from thermodata.reader.finding.registry import claims
 from thermodata.reader.text.file.foreign_texts import foreign_text
 from thermodata.reader.text.tables.find_table import open_table
 
@@ -159,3 +161,32 @@ def test_what_camonitor_prints_becomes_a_table_of_names_and_values(tmp_path: Pat
     assert len(made) == len(lines)
     # two values in a line are a table
     assert foreign_text([f"T{i} 2026-03-01 08:00:{i:02}.123456 20.5 21.5" for i in range(9)]) is None
+
+
+def _dump(*tables: str) -> str:
+    rows = {
+        "sensor": "COPY public.sensor (id, name, unit) FROM stdin;\n1\ttcp_z\tum\n2\tbed\tdegC\n\\.\n",
+        "measurement": "COPY public.measurement (id, sensor_id, ts, value) FROM stdin;\n"
+        + "".join(f"{k}\t{1 + k % 2}\t2026-05-11 06:{k // 60:02d}:{k % 60:02d}+00\t{k / 9:.3f}\n" for k in range(300))
+        + "\\.\n",
+    }
+    head = "--\n-- PostgreSQL database dump\n--\n\nSET statement_timeout = 0;\n" + "SET x = 1;\n" * 40
+    return head + "\n".join(rows[t] for t in tables) + "\n--\n-- PostgreSQL database dump complete\n--\n"
+
+
+def test_a_dump_of_several_tables_is_refused_with_what_makes_tables_of_it(tmp_path: Path) -> None:
+    (tmp_path / "lab.sql").write_text(_dump("sensor", "measurement"))
+    assert not claims(tmp_path / "lab.sql")
+    what, do = foreign_text(_dump("sensor", "measurement").splitlines()) or ("", "")
+    assert what == "a dump of PostgreSQL with several tables"
+    script = do.partition('python -c "')[2].removesuffix('"').replace("FILE", "lab.sql")
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True)
+    assert (tmp_path / "sensor.csv").read_text() == "id\tname\tunit\n1\ttcp_z\tum\n2\tbed\tdegC\n"
+    measured = (tmp_path / "measurement.csv").read_text().splitlines()
+    assert (len(measured), measured[0]) == (301, "id\tsensor_id\tts\tvalue")
+    assert list(claims(tmp_path / "measurement.csv")) == ["cnc"]
+
+
+def test_statements_of_others_and_a_dump_of_one_table_are_no_such_dump() -> None:
+    assert foreign_text(_dump("measurement").splitlines()) is None
+    assert foreign_text(["time,COPY x (a) FROM stdin;", *("2026-05-11 06:00:00,1",) * 20]) is None

@@ -42,6 +42,8 @@ def foreign_text(lines: Sequence[str]) -> tuple[str, str] | None:
     full = [bare for line in lines[: 2 * _LOOKED_AT] if (bare := line.strip().strip("\ufeff").strip())][:_LOOKED_AT]
     if not full:
         return None
+    if full[0].startswith("--") and _is_dump_of_tables(lines):
+        return _DUMP_OF_TABLES
     return next(((what, do) for is_one, what, do in _KNOWN if is_one(full)), None)
 
 
@@ -166,6 +168,19 @@ def _is_dump_of_mysql(lines: Sequence[str]) -> bool:
     return re.match(r"-- (?:MySQL|MariaDB) dump ", lines[0]) is not None
 
 
+def _is_dump_of_tables(lines: Sequence[str]) -> bool:
+    """Whether it is a dump of PostgreSQL with several tables: one has the names and units of another's rows."""
+    return sum(line.startswith("COPY ") and _COPY.match(line) is not None for line in lines) > 1
+
+
+_COPY = re.compile(r"COPY [^\s(]+ \([^()]*\) FROM stdin;")
+_DUMP_OF_TABLES = (
+    "a dump of PostgreSQL with several tables",
+    "make a CSV of each, which are read together: psql DATABASE -c '\\copy TABLE to TABLE.csv csv header'; or out of "
+    "the dump: python -c \"import re; N = chr(92); [open(t + '.csv', 'w').write('\\t'.join(c.split(', ')) + "
+    "r.split('\\n' + N + '.')[0].replace(N + 'N', '') + '\\n') for t, c, r in re.findall("
+    "r'COPY [^ ]*?(\\w+) \\((.*?)\\) FROM stdin;(.*?)(?=\\nCOPY |\\Z)', open('FILE').read(), re.S)]\"",
+)
 _BY_PANDAS = "make a CSV of it: python -c \"import pandas; pandas.read_json('FILE'{}).to_csv('FILE.csv'{})\""
 _KNOWN = (
     (_is_split_json, "a table as JSON (pandas)", _BY_PANDAS.format(", orient='split'", ", index=False")),
