@@ -90,7 +90,7 @@ def test_the_axis_of_a_probe_and_a_warm_start_are_answered() -> None:
     assert (asked["channels.ch1.axis"].kind, asked["channels.ch1.axis"].value) == ("axis", "")
     assert asked["channels.ch1.axis"].choices == ("X", "Y", "Z", "A", "B", "C")
     assert "channels.dZ.axis" not in asked
-    assert asked["tests.1.start_state"].choices == ("balance", "warm")
+    assert asked["tests.1.start_state"].choices == ("balance", "warm", "on standby")
     assert asked["tests.1.start_state"].open
     assert "tests.0.start_state" not in asked
     after = filled_in(text, {"channels.ch1.axis": "Y", "tests.1.start_state": "warm", "tests.1.role": "verification"})
@@ -269,3 +269,43 @@ def test_moves_without_a_unit_are_micrometres_and_parts_of_one_are_refused() -> 
 def test_the_hint_to_the_role_of_a_test_names_its_kind() -> None:
     text = TEXT.replace("# ? kind? e.g. spindle", "# kind sure: name and data")
     assert {q.name: q for q in questions(text)}["tests.0.role"].hint == "kind other, sure: name and data"
+
+
+START = """\
+schema: thermodata/campaign/1
+id: lab
+machine: {id: m}
+sources:
+  nc: {reader: cnc, files: "raw/{test}.csv", timezone: UTC}
+channels:
+  dZ: {source: nc, signal: Z, quantity: displacement, unit: um, axis: Z}   # ? at: where on the machine?
+  T06: {source: nc, signal: T, quantity: temperature, unit: degC}   # ? at: where on the machine?
+  dY: {source: nc, signal: Y, quantity: displacement, unit: um, axis: "Y", relative_to: bed}   # ? at: where?
+tests:   # ? role of each
+  - {id: day1, kind: other, role: none}   # ? start_state: warm? T begins 4 K above
+  - {id: day2, kind: other, role: none, notes: "cold hall"}   # ? start_state: warm? T begins 4 K above
+"""
+
+
+def test_a_displacement_of_the_tool_is_read_against_the_table() -> None:
+    text = filled_in(START, {"channels.dZ.at": "tcp", "channels.T06.at": "tcp", "channels.dY.at": "tcp"})
+    channels = parse_campaign(text).channels
+    assert (channels["dZ"].at, channels["dZ"].relative_to) == ("tcp", "table")
+    assert channels["T06"].relative_to is None
+    assert channels["dY"].relative_to == "bed"
+    assert parse_campaign(filled_in(START, {"channels.dZ.at": "stator"})).channels["dZ"].relative_to is None
+
+
+def test_on_standby_is_a_balance_of_which_the_notes_tell() -> None:
+    asked = next(q for q in questions(START) if q.name == "tests.0.start_state")
+    assert asked.choices == ("balance", "warm", "on standby")
+    said = {f"tests.{k}.start_state": "on standby" for k in (0, 1)}
+    text = filled_in(START, said)
+    first, second = parse_campaign(text).tests
+    assert (first.start_state, second.start_state) == ("balance", "balance")
+    assert first.notes == "began on standby: control and hydraulics on, axes still"
+    assert second.notes == "cold hall; began on standby: control and hydraulics on, axes still"
+    assert "# answered: start_state" in text
+    assert filled_in(text, {"tests.0.start_state": "on standby"}) == text
+    warm = parse_campaign(filled_in(START, {"tests.0.start_state": "warm"})).tests[0]
+    assert (warm.start_state, warm.notes) == ("warm", "")

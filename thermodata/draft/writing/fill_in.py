@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +12,7 @@ from thermodata.draft.writing.asked import ticked
 from thermodata.draft.writing.in_line import set_in_line
 from thermodata.draft.writing.questions import (
     OF_TIME,
+    STANDBY,
     UNREAD,
     asked_elsewhere,
     asked_places,
@@ -28,6 +30,7 @@ from thermodata.schema.strict.lines import Document, Place, parse_document
 from thermodata.schema.units.conversion import linear_conversion
 from thermodata.schema.units.quantity import CANONICAL_UNIT
 
+_STANDBY_NOTE = "began on standby: control and hydraulics on, axes still"
 _WHOLE = re.compile(r"^([+-]?[1-9]\d*)$")  # whole numbers of no unit are um: no probe goes that many mm
 
 
@@ -94,11 +97,30 @@ def _put(
         lines[at] = _said(lines[at], answer, place)
     elif key.startswith(OF_TIME):
         lines[at] = set_in_line(lines[at], "table", _with_time(document, place, last_of(key), answer), place)
+    elif key == "start_state" and answer == STANDBY:
+        lines[at] = _on_standby(lines[at], document, place)
     else:
+        if key == "at" and _is_tools(document, place, answer):
+            lines[at] = set_in_line(lines[at], "relative_to", "table", place)
         if key == "unit" and document.data["channels"][place[1]].get("quantity") != "displacement":
             linear_conversion(answer, CANONICAL_UNIT[document.data["channels"][place[1]]["quantity"]])
         lines[at] = set_in_line(lines[at], key, _written(key, answer), place)
     return {}
+
+
+def _is_tools(document: Document, place: Place, at: str) -> bool:
+    """Whether a displacement is said to be the tool's, which a probe reads against the table, as a draft has it."""
+    channel = document.data["channels"][place[1]] if place[0] == "channels" else {}
+    return at == "tcp" and channel.get("quantity") == "displacement" and "relative_to" not in channel
+
+
+def _on_standby(line: str, document: Document, place: Place) -> str:
+    """The line of a test before which the machine stood with control and hydraulics on: in balance, though not as cold
+    as one that was off, which its notes say."""
+    line = set_in_line(line, "start_state", "balance", place)
+    said = str(document.data["tests"][place[1]].get("notes", ""))
+    notes = "; ".join(filter(None, (said, _STANDBY_NOTE)))
+    return line if _STANDBY_NOTE in said else set_in_line(line, "notes", json.dumps(notes, ensure_ascii=False), place)
 
 
 def _with_time(document: Document, place: Place, key: str, answer: str) -> str:

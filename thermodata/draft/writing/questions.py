@@ -23,7 +23,8 @@ Kind = Literal[
 ROLES: tuple[str, ...] = get_args(Role)
 KINDS: tuple[str, ...] = get_args(TestKind)
 AXES = ("X", "Y", "Z", "A", "B", "C")
-STARTS = ("balance", "warm")
+STANDBY = "on standby"  # control and hydraulics on, axes still: a balance of its own
+STARTS = ("balance", "warm", STANDBY)
 _CHOICES = {"place": tuple(PLACES), "what": WHAT, "role": ROLES, "kind": KINDS, "axis": AXES, "start": STARTS}
 _UNITS = {
     "displacement": ("um", "mm", "m", "V"),
