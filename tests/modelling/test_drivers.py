@@ -113,3 +113,26 @@ def test_a_chiller_starts_from_the_mean_of_its_cycle() -> None:
     assert start_value(pulses, 60.0) == pytest.approx(22.0, abs=0.1)
     # and noise on something slow is no cycle
     assert start_value(22.0 + minutes / 300.0 + noise, 60.0) == pytest.approx(22.0, abs=0.05)
+
+
+def test_what_is_held_stands_through_a_gap_until_it_is_written_again() -> None:
+    test = make_test(1, "calibration")
+    command = np.where(np.arange(len(test.t_s)) < 105, 3000.0, 8000.0)
+    broken = command.copy()
+    broken[100:110] = np.nan
+    broken[:3] = np.nan
+    values = {**test.values, "speed": broken, "T_nut": broken}
+    test = replace(test, values=values)
+    lines = make_drivers(test, effect("lag"), {"u": "speed"}).values["u"]
+    assert np.all(np.diff(lines[99:111]) > 0), "logged in even steps: nobody knows what was between"
+    held = replace(test, channels={**test.channels, "speed": replace(test.channels["speed"], held=True)})
+    found = make_drivers(held, effect("lag"), {"u": "speed"})
+    assert np.array_equal(found.values["u"][:110], np.full(110, 3000.0))
+    assert np.array_equal(found.values["u"][110:], command[110:])
+    assert found.valid["u"][:110].all()
+    state = make_drivers(held, effect("lag"), {"u": "speed > 5000 rpm"}).values["u"]
+    assert set(np.unique(state)) == {0.0, 1.0}
+    mixed = make_drivers(held, effect("lag"), {"u": "T_nut * speed"}).values["u"]
+    assert np.all(np.diff(mixed[99:111]) > 0), "a temperature is not held"
+    reading = replace(test, channels={**test.channels, "speed": replace(test.channels["speed"], quantity="state")})
+    assert np.array_equal(make_drivers(reading, effect("lag"), {"u": "speed"}).values["u"][:110], np.full(110, 3000.0))

@@ -1,4 +1,5 @@
-"""The drivers that an effect sees of one test: channels or expressions on the test's grid, gaps filled.
+"""The drivers that an effect sees of one test: channels or expressions on the test's grid, gaps filled by straight
+lines; what is held, as a command or a state that is written on change, stands there as it did before.
 
 Temperatures count from the start of the record (history included): a constant is the offset's business, and a
 lag that starts at zero is then in balance. So a sensor that is off by one number through the test drives as ever, but
@@ -17,6 +18,7 @@ from thermodata.effect.guard import read_only
 from thermodata.effect.lag import step_between
 from thermodata.errors import UsageError, unknown_channel
 from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
+from thermodata.schema.units.quantity import STATES
 from thermodata.view.grid.dataset import TestData
 
 # zero means at rest; everything else has an arbitrary zero and counts from the start of the record
@@ -56,7 +58,8 @@ def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str], nam
             raw, good, relative = evaluate(test, text)
             if not good.any():
                 raise _nothing_valid(test, text, f"effect '{name or effect.name}', driver '{role}'")
-            test.kept[key] = prepare(raw, good, step_s(test), relative and not coordinate)
+            relative = relative and not coordinate
+            test.kept[key] = prepare(raw, good, step_s(test), relative, held=_is_held(test, text))
         values[role], valid[role] = test.kept[key]
     return read_only(Drivers(test.t_s, values, valid, test.conditions))
 
@@ -154,8 +157,9 @@ def _nothing_valid(test: TestData, text: str, where: str) -> UsageError:
     )
 
 
-def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Float1D, Bool1D]:
-    """Gaps filled by straight lines (ends held), counted from the start; and where the filling is short enough."""
+def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool, *, held: bool = False) -> tuple[Float1D, Bool1D]:
+    """Gaps filled by straight lines (ends held), counted from the start; and where the filling is short enough. held:
+    the value before a gap stands through it."""
     if not good.any():
         raise UsageError(
             "a driver has no valid sample",
@@ -164,11 +168,11 @@ def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Fl
         )
     index = np.arange(len(raw))
     known = index[good]
-    filled = raw.copy() if good.all() else np.interp(index, known, raw[good])
     if good.all():
-        near = good
+        filled, near = raw.copy(), good
     else:
         before = known[np.clip(np.searchsorted(known, index, side="right") - 1, 0, None)]
+        filled = raw[before] if held else np.interp(index, known, raw[good])
         after = known[np.clip(np.searchsorted(known, index), None, len(known) - 1)]
         reach = np.maximum(np.abs(index - before), np.abs(after - index)) * step
         near = good | (reach <= FILL_S)
@@ -268,6 +272,12 @@ def _is_valid(test: TestData, name: str) -> Bool1D:
 def _quantity(test: TestData, name: str) -> str:
     info = test.channels.get(name)
     return info.quantity if info else ANY
+
+
+def _is_held(test: TestData, text: str) -> bool:
+    """Whether all channels of a driver are held between their rows."""
+    infos = [test.channels.get(name) for name in names_of(text)]
+    return all(info is not None and (info.held or info.quantity in STATES) for info in infos)
 
 
 def _unit(test: TestData, name: str) -> str:

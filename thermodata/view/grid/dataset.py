@@ -26,7 +26,8 @@ class ChannelInfo:
     place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.
     scale_pct: standard (k = 1) uncertainty of its calibration's gain [%]; None where none tells it. clock_doubtful:
     whether its source's whole clock is doubtful in this test, for it could not be aligned. in_measuring: whether the
-    test's `measuring` reads it.
+    test's `measuring` reads it. held: whether its values stand until the next one in this test: a state, or what was
+    written on change.
     """
 
     name: str
@@ -46,6 +47,7 @@ class ChannelInfo:
     scale_pct: float | None = None
     clock_doubtful: bool = False
     in_measuring: bool = False
+    held: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,6 +126,8 @@ def _test_data(
     known = infos.get((row["campaign"], row["test"]), {})
     names = [n for n in known if n in binned.series] + [n for n in binned.series if n not in known and not known]
     channels = {n: known.get(n, ChannelInfo(n, "displacement", "um", sign="unknown")) for n in names}
+    held = {n for n in names if binned.series[n].stands is not None}
+    channels = {n: replace(info, held=True) if n in held else info for n, info in channels.items()}
     t_s: Float1D = np.arange(binned.first, binned.last + 1, dtype=np.float64) * np.float64(step_s)
     values: dict[str, Float1D] = {}
     valid: dict[str, Bool1D] = {}
