@@ -113,9 +113,7 @@ def head_lines(
         return HeadLines(head, top_of(head), first, stamped, False, quoted, stamped=stamped)
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     delimiter = delimiter or delimiters.find_delimiter(top)
-    columns = fixed_columns((*top, *first.rest)) if delimiter in (None, delimiters.BLANKS) else None
-    if delimiter is None and columns is not None:
-        delimiter = delimiters.BLANKS
+    columns = fixed_columns((*top, *first.rest)) if delimiter == delimiters.BLANKS else None
     if delimiter is None:
         raise FormatError(
             "no columns found",
