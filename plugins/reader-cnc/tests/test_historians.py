@@ -12,7 +12,7 @@ from thermodata_reader_cnc.opcua import long_table, sections
 from thermodata.plugin import Source
 from thermodata.testing.reader import load
 
-from .test_sco_opcua import written
+from .logs import values, written
 
 INFLUX = ",result,table,_start,_stop,_time,_value,_field,_measurement,machine\n"
 
@@ -29,9 +29,7 @@ def of_influx(table: int, field: str, machine: str = "m1") -> str:
 def test_an_export_of_influxdb_is_taken_apart_over_its_tables(tmp_path: Path) -> None:
     text = NOTES + INFLUX + of_influx(0, "T1") + of_influx(1, "T2") + "\n" + NOTES + INFLUX + of_influx(2, "T3")
     data = load(Reader(), written(tmp_path, text, "influx.csv"), Source())
-    assert {n: v.tolist() for (_, n), v in data.values.items()} == {
-        f"T{1 + k}": [i + k / 4 for i in range(20)] for k in range(3)
-    }
+    assert values(data) == {f"T{1 + k}": [i + k / 4 for i in range(20)] for k in range(3)}
     assert data.recording.start_ns == np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64)
     assert not data.losses
 
@@ -73,7 +71,7 @@ def test_tables_of_influxdb_with_other_columns_are_all_read(
     path = written(tmp_path, text.replace("\n", end), "influx.csv")
     data = load(Reader(), path, Source())
     assert not data.losses
-    assert {n: v.tolist() for (_, n), v in data.values.items()} == {
+    assert values(data) == {
         **{f"m{1 + k}": [i + table / 4 for i in range(20)] for k, table in enumerate((0, 1, 3))},
         "speed": [1000.0 + k for k in range(20)],
     }
@@ -174,8 +172,8 @@ def test_a_value_stands_in_the_column_of_its_type(tmp_path: Path, tag: str, none
         sorted(rows, key=lambda r: r.split(",")[-1])
     )
     data = load(Reader(), written(tmp_path, text, "h.csv"), Source())
-    values = {n: list(dict.fromkeys(v[np.isfinite(v)].tolist())) for (_, n), v in data.values.items()}
-    assert values == {names[0]: [21 + k / 8 for k in range(40)], names[1]: [4000.0 + k for k in range(40)]}
+    distinct = {n: list(dict.fromkeys(v[np.isfinite(v)].tolist())) for (_, n), v in data.values.items()}
+    assert distinct == {names[0]: [21 + k / 8 for k in range(40)], names[1]: [4000.0 + k for k in range(40)]}
     assert not data.losses
 
 

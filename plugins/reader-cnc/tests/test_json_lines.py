@@ -16,28 +16,9 @@ from thermodata_reader_cnc.messages.json_text import loads
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.schema.flag import Flag
-from thermodata.testing.reader import Data, load, reader_checks
+from thermodata.testing.reader import load, reader_checks
 
-START_S = 1_772_438_400  # 2026-03-02T08:00:00Z
-
-
-def iso(k: int) -> str:
-    return str(np.datetime64(START_S + k, "s")) + "Z"
-
-
-def written(folder: Path, messages: list[Any], name: str = "log.jsonl") -> Path:
-    path = folder / name
-    path.write_text("".join((m if isinstance(m, str) else json.dumps(m)) + "\n" for m in messages), encoding="utf-8")
-    return path
-
-
-def read(folder: Path, messages: list[Any], source: Source | None = None) -> Data:
-    return load(Reader(), written(folder, messages), source or Source())
-
-
-def values(data: Data) -> dict[str, list[Any]]:
-    return {name: v.tolist() for (_, name), v in data.values.items()}
-
+from .logs import START_S, iso, messages_written, read_messages, values
 
 SHAPES: dict[str, tuple[Callable[[int], Any], dict[str, list[Any]]]] = {
     "flat": (
@@ -85,14 +66,14 @@ SHAPES: dict[str, tuple[Callable[[int], Any], dict[str, list[Any]]]] = {
 @pytest.mark.parametrize("shape", SHAPES)
 def test_what_a_message_reports(tmp_path: Path, shape: str) -> None:
     make, expected = SHAPES[shape]
-    data = read(tmp_path, [make(k) for k in range(4)])
+    data = read_messages(tmp_path, [make(k) for k in range(4)])
     assert values(data) == expected
     assert data.t_ns["nc"].tolist() == [(START_S + k) * 10**9 for k in range(4)]
     assert not data.losses
 
 
 def test_a_value_of_a_topic_holds_until_its_next_one(tmp_path: Path) -> None:
-    data = read(tmp_path, [{"ts": iso(k), "topic": f"shop/T{k % 2}", "value": 20 + k} for k in range(6)])
+    data = read_messages(tmp_path, [{"ts": iso(k), "topic": f"shop/T{k % 2}", "value": 20 + k} for k in range(6)])
     assert values(data)["shop/T0"] == [20.0, 20.0, 22.0, 22.0, 24.0, 24.0]
     assert all(signal.held for signal in data.recording.signals)
 
@@ -100,7 +81,7 @@ def test_a_value_of_a_topic_holds_until_its_next_one(tmp_path: Path) -> None:
 def test_objects_of_the_same_keys_hold_nothing(tmp_path: Path) -> None:
     messages = [{"ts": iso(k), "T1": 20 + k, "T2": 30 + k} for k in range(200)]
     late = {"ts": iso(200), "T1": 20.5, "T2": None}
-    data = read(tmp_path, [*messages, late])
+    data = read_messages(tmp_path, [*messages, late])
     assert not any(signal.held for signal in data.recording.signals)
     assert np.isnan(values(data)["T2"][-1])
 
@@ -109,11 +90,11 @@ def test_labels_that_differ_part_the_names_and_those_that_come_late_are_told(tmp
     def message(k: int, host: str) -> dict[str, Any]:
         return {"ts": iso(k), "host": host, "T1": float(k)}
 
-    both = read(tmp_path, [message(k, "ab"[k % 2]) for k in range(8)])
+    both = read_messages(tmp_path, [message(k, "ab"[k % 2]) for k in range(8)])
     assert sorted(values(both)) == ["a/T1", "b/T1"]
     one = [message(k, "a") for k in range(150_000)]
     one[100_000]["host"] = "b"
-    late = read(tmp_path, one)
+    late = read_messages(tmp_path, one)
     assert sorted(values(late)) == ["T1"]
     assert len(late.t_ns["nc"]) == len(one) - 1
     (loss,) = late.losses
@@ -124,7 +105,7 @@ def test_labels_that_differ_part_the_names_and_those_that_come_late_are_told(tmp
 def test_units_and_qualities_beside_a_value(tmp_path: Path) -> None:
     messages = [{"ts": iso(k), "name": "dZ", "value": 1.5, "unit": "um", "quality": "Good"} for k in range(4)]
     messages[2] |= {"value": 0.0025, "unit": "mm", "quality": "Bad"}
-    data = read(tmp_path, messages)
+    data = read_messages(tmp_path, messages)
     assert [(s.name, s.unit) for s in data.recording.signals] == [("dZ", "um")]
     assert values(data)["dZ"] == [1.5, 1.5, 2.5, 1.5]
     flags = data.flags["nc", "dZ"]
@@ -133,14 +114,14 @@ def test_units_and_qualities_beside_a_value(tmp_path: Path) -> None:
 
 def test_a_bad_value_of_industrial_edge_is_flagged(tmp_path: Path) -> None:
     messages = [{"vals": [{"id": "7", "val": k, "ts": iso(k), "qc": 0 if k == 1 else 2}]} for k in range(3)]
-    data = read(tmp_path, messages)
+    data = read_messages(tmp_path, messages)
     assert [bool(f & int(Flag.NOT_MEASURING)) for f in data.flags["nc", "7"]] == [False, True, False]
 
 
 def test_a_log_may_be_an_array_with_an_object_a_line(tmp_path: Path) -> None:
     lines = ["[", *(json.dumps({"ts": iso(k), "T1": k, "T2": 2}) + "," for k in range(4)), "]"]
     lines[-2] = lines[-2].removesuffix(",")
-    data = read(tmp_path, lines)
+    data = read_messages(tmp_path, lines)
     assert values(data)["T1"] == [0.0, 1.0, 2.0, 3.0]
     assert not data.losses
 
@@ -161,14 +142,14 @@ def test_a_log_may_be_an_array_with_an_object_a_line(tmp_path: Path) -> None:
 )
 def test_a_line_that_is_damaged_is_lost_alone(tmp_path: Path, line: str, said: str) -> None:
     good = [{"ts": iso(k), "T1": k, "T2": 2} for k in range(30)]
-    data = read(tmp_path, [*good[:10], line, *good[10:]])
+    data = read_messages(tmp_path, [*good[:10], line, *good[10:]])
     assert values(data)["T1"][-1] == 29.0
     assert [loss.where for loss in data.losses] == ["log.jsonl line 11"]
     assert said in data.losses[0].reason
 
 
 def test_a_last_line_that_is_cut_is_lost(tmp_path: Path) -> None:
-    path = written(tmp_path, [{"ts": iso(k), "T1": k, "T2": 2} for k in range(30)])
+    path = messages_written(tmp_path, [{"ts": iso(k), "T1": k, "T2": 2} for k in range(30)])
     whole = path.read_bytes()
     path.write_bytes(whole[:-1])  # without its line end it is whole by its bracket
     assert not load(Reader(), path, Source()).losses
@@ -179,14 +160,14 @@ def test_a_last_line_that_is_cut_is_lost(tmp_path: Path) -> None:
 
 def test_local_times_are_of_the_source_and_numbers_keep_their_digits(tmp_path: Path) -> None:
     local = [{"ts": f"2026-03-02 09:00:0{k}", "T1": k, "T2": 2} for k in range(4)]
-    data = read(tmp_path, local, Source(timezone="Europe/Prague"))
+    data = read_messages(tmp_path, local, Source(timezone="Europe/Prague"))
     assert data.t_ns["nc"][0] == START_S * 10**9
     fine = [{"ts": START_S * 10**9 + k, "T1": k, "T2": 2} for k in range(4)]
-    assert np.diff(read(tmp_path, fine).t_ns["nc"]).tolist() == [1, 1, 1]
+    assert np.diff(read_messages(tmp_path, fine).t_ns["nc"]).tolist() == [1, 1, 1]
 
 
 def test_objects_without_a_date_are_refused(tmp_path: Path) -> None:
-    path = written(tmp_path, [{"ts": k / 2, "T1": k} for k in range(9)])
+    path = messages_written(tmp_path, [{"ts": k / 2, "T1": k} for k in range(9)])
     with pytest.raises(FormatError, match="no lines of JSON with a time"):
         load(Reader(), path, Source())
 
@@ -219,7 +200,7 @@ KIT = {
 @pytest.mark.parametrize("kind", KIT)
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
 def test_kit(tmp_path: Path, number: int, kind: str) -> None:
-    reader_checks(Reader, [(written(tmp_path, KIT[kind]), Source())], unordered=True)[number]()
+    reader_checks(Reader, [(messages_written(tmp_path, KIT[kind]), Source())], unordered=True)[number]()
 
 
 def dying(k: int, name: str) -> list[dict[str, Any]]:
@@ -230,7 +211,7 @@ def dying(k: int, name: str) -> list[dict[str, Any]]:
 
 
 def test_a_sensor_that_dies_has_no_value_beyond_ten_of_its_steps(tmp_path: Path) -> None:
-    data = read(tmp_path, [m for k in range(120) for m in dying(k, "value")])
+    data = read_messages(tmp_path, [m for k in range(120) for m in dying(k, "value")])
     dead = data.values["nc", "T_dead"]
     assert np.flatnonzero(np.isnan(dead)).tolist() == list(range(60, 90))
     flags = data.flags["nc", "T_dead"]
@@ -243,7 +224,7 @@ def test_a_value_on_change_holds_however_long_it_is_silent(tmp_path: Path) -> No
     messages = [{"ts": iso(k), "topic": "T_bed", "value": 20 + (k * 7 % 5) / 10} for k in range(120)]
     messages[40:40] = [{"ts": iso(40), "topic": "n", "value": 3000}]
     messages[100:100] = [{"ts": iso(99), "topic": "n", "value": 0}]
-    data = read(tmp_path, messages)
+    data = read_messages(tmp_path, messages)
     assert data.values["nc", "n"][41:90].tolist() == [3000.0] * 49
 
 
@@ -252,6 +233,6 @@ def test_a_metric_that_is_null_has_no_value(tmp_path: Path) -> None:
         told = {"isNull": True} if k in (2, 3) else {"isNull": False, "value": 20.0 + k}
         return {"timestamp": (START_S + k) * 1000, "metrics": [{"name": "CH1/T", "dataType": "Double", **told}]}
 
-    data = read(tmp_path, [metric(k) for k in range(6)])
+    data = read_messages(tmp_path, [metric(k) for k in range(6)])
     ((_, column),) = data.values.items()
     assert np.isnan(column).tolist() == [False, False, True, True, False, False]

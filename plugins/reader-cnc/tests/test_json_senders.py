@@ -7,30 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from thermodata_reader_cnc import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.testing.reader import Data, load
+from thermodata.testing.reader import load
 from thermodata.testing.reader.case import head
 
-START_S = 1_772_438_400  # 2026-03-02T08:00:00Z
-
-
-def iso(k: int) -> str:
-    return str(np.datetime64(START_S + k, "s")) + "Z"
-
-
-def read(folder: Path, messages: list[Any], source: Source | None = None) -> Data:
-    path = folder / "log.jsonl"
-    path.write_text("".join(json.dumps(m) + "\n" for m in messages), encoding="utf-8")
-    return load(Reader(), path, source or Source())
-
-
-def values(data: Data) -> dict[str, list[Any]]:
-    return {name: v.tolist() for (_, name), v in data.values.items()}
+from .logs import START_S, iso, read_messages, values
 
 
 def of_two(message: Callable[[str, dict[str, Any]], Any], n: int = 40) -> list[Any]:
@@ -60,7 +45,7 @@ BESIDE: dict[str, Callable[[str, dict[str, Any]], Any]] = {
 
 @pytest.mark.parametrize("kind", BESIDE)
 def test_sensors_that_a_message_names_beside_its_values_are_parted(tmp_path: Path, kind: str) -> None:
-    data = read(tmp_path, of_two(BESIDE[kind]))
+    data = read_messages(tmp_path, of_two(BESIDE[kind]))
     found = [v[-1] for (_, name), v in data.values.items() if v.dtype.kind == "f" and name.endswith("T")]
     assert found == [20.39, 30.39]
     assert not data.losses
@@ -68,16 +53,16 @@ def test_sensors_that_a_message_names_beside_its_values_are_parted(tmp_path: Pat
 
 @pytest.mark.parametrize("kind", ["mac", "gateway", "labels"])
 def test_messages_that_are_declared_to_be_of_one_sensor_are(tmp_path: Path, kind: str) -> None:
-    data = read(tmp_path, of_two(BESIDE[kind]), Source(table={"series": "none"}))
+    data = read_messages(tmp_path, of_two(BESIDE[kind]), Source(table={"series": "none"}))
     assert sorted(v.dtype.kind for v in data.values.values()) == ["O", "f"]
 
 
 def test_a_key_that_is_declared_parts_messages(tmp_path: Path) -> None:
     messages = [{"ts": iso(k), "spot": "ab"[k // 20], "T": 20.0 + k // 20} for k in range(40)]
-    assert set(values(read(tmp_path, messages))) == {"spot", "T"}  # a state, for all that one sees
-    assert set(values(read(tmp_path, messages, Source(table={"series": ["spot"]})))) == {"a/T", "b/T"}
+    assert set(values(read_messages(tmp_path, messages))) == {"spot", "T"}  # a state, for all that one sees
+    assert set(values(read_messages(tmp_path, messages, Source(table={"series": ["spot"]})))) == {"a/T", "b/T"}
     with pytest.raises(FormatError, match="nothing is called 'mac'"):
-        read(tmp_path, messages, Source(table={"series": ["mac"]}))
+        read_messages(tmp_path, messages, Source(table={"series": ["mac"]}))
 
 
 def test_what_a_message_says_of_the_machine_parts_nothing(tmp_path: Path) -> None:
@@ -85,9 +70,9 @@ def test_what_a_message_says_of_the_machine_parts_nothing(tmp_path: Path) -> Non
         {"ts": iso(k), "program": {"name": f"MPF{k // 20}"}, "mode": "AUTO" if k // 10 % 2 else "JOG", "T": 20 + k / 10}
         for k in range(60)
     ]
-    assert set(values(read(tmp_path, messages))) == {"mode", "T"}
+    assert set(values(read_messages(tmp_path, messages))) == {"mode", "T"}
     machine = [{"ts": iso(k), "machine": {"name": "M1", "state": "RUN"}, "T": 20 + k / 10} for k in range(60)]
-    assert set(values(read(tmp_path, machine))) == {"T"}
+    assert set(values(read_messages(tmp_path, machine))) == {"T"}
 
 
 MS = 1000 * START_S
@@ -98,10 +83,10 @@ def test_tags_of_kepware_s_gateway_are_signals_of_their_own_with_their_quality(t
         return {"id": f"Channel1.{name}", "v": value, "q": k != 3, "t": MS + 1000 * k}
 
     lines = [{"timestamp": MS + 1000 * k, "values": [tag("T", k, 20.5), tag("n", k, 900 + k)]} for k in range(9)]
-    data = read(tmp_path, lines)
+    data = read_messages(tmp_path, lines)
     assert values(data) == {"Channel1.T": [20.5] * 9, "Channel1.n": [900.0 + k for k in range(9)]}
     assert [int(f) for f in data.flags["nc", "Channel1.T"]] == [0, 0, 0, 128, 0, 0, 0, 0, 0]
-    data = read(tmp_path, [{"ts": iso(k), "id": "a", "v": 3.5, "T": 20.0 + k} for k in range(9)])
+    data = read_messages(tmp_path, [{"ts": iso(k), "id": "a", "v": 3.5, "T": 20.0 + k} for k in range(9)])
     assert {"v", "T"} <= set(values(data))
 
 
@@ -112,13 +97,13 @@ def test_lists_by_device_or_signal_are_no_one_signal(tmp_path: Path) -> None:
         for k in range(20)
         for j, d in enumerate("AB")
     ]
-    got = values(read(tmp_path, lines))
+    got = values(read_messages(tmp_path, lines))
     assert got.keys() == {"Device A/values.T", "Device B/values.T"}
     assert {20.0} == {v for v in got["Device A/values.T"] if v == v}
     alone = [{"Device A": [{"ts": MS + 60_000 * k, "values": {"T": 20.0}}]} for k in range(20)]
-    assert values(read(tmp_path, alone)).keys() == {"values.T"}
+    assert values(read_messages(tmp_path, alone)).keys() == {"values.T"}
     whole = {n: [{"ts": MS + 60_000 * k, "value": str(v)} for k in range(20)] for n, v in (("T", 20.5), ("n", 900))}
-    got = values(read(tmp_path, [whole]))
+    got = values(read_messages(tmp_path, [whole]))
     assert got.keys() == {"T/value", "n/value"}
     assert {20.5} == {v for v in got["T/value"] if v == v}
 
@@ -127,13 +112,13 @@ def test_a_pack_of_senml_has_its_bases(tmp_path: Path) -> None:
     pack = [{"bn": "urn:dev:1:", "bt": START_S, "bu": "Cel", "bv": 20, "n": "T1", "v": 0.5}]
     pack += [{"n": "T1", "t": 60 * k, "v": k / 8} for k in range(1, 12)]
     pack += [{"n": "rh", "u": "%RH", "t": 60 * k, "v": 20 + k} for k in range(12)]
-    data = read(tmp_path, [pack])
+    data = read_messages(tmp_path, [pack])
     assert [(s.name, s.unit) for s in data.recording.signals] == [("urn:dev:1:T1", "Cel"), ("urn:dev:1:rh", "%RH")]
     assert data.t_ns["nc"][:2].tolist() == [START_S * 10**9, (START_S + 60) * 10**9]
     got = values(data)["urn:dev:1:T1"]
     assert [20.5, *(20 + k / 8 for k in range(1, 12))] == [v for v in got if v == v][:12]
     packs = [[{"bn": "m:", "bt": START_S + 60 * k, "n": "T", "u": "Cel", "v": 20 + k}] for k in range(9)]
-    assert values(read(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(9)]}
+    assert values(read_messages(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(9)]}
 
 
 @pytest.mark.parametrize(
@@ -143,7 +128,7 @@ def test_a_time_that_is_none_costs_its_own_record_of_senml(tmp_path: Path, spoil
     """It was raised while the file was looked at, and no reader took the file."""
     packs = [[{"bn": "m:", "n": "T", "u": "Cel", "t": START_S + 60 * k, "v": 20 + k}] for k in range(40)]
     packs[20][0] = {**packs[20][0], **spoilt}
-    assert values(read(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(40) if k != 20]}
+    assert values(read_messages(tmp_path, packs)) == {"m:T": [20.0 + k for k in range(40) if k != 20]}
     assert Reader().sniff(head(tmp_path / "log.jsonl")) is not None
 
 

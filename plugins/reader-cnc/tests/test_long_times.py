@@ -12,7 +12,7 @@ from thermodata_reader_cnc.opcua import long_table
 from thermodata.plugin import Source
 from thermodata.testing.reader import load
 
-from .test_sco_opcua import written
+from .logs import written
 
 EIGHT = np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64)
 HOUR = 3600 * 10**9

@@ -6,28 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_cnc import Reader
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Source
-from thermodata.testing.reader import load
-from thermodata.testing.reader.case import Data
+
+from .logs import read_long, stamp, values
 
 N = 40
-
-
-def stamp(k: float) -> str:
-    return f"2026-03-02T08:{int(k) // 60:02d}:{k % 60:06.3f}Z"
-
-
-def read(tmp_path: Path, header: str, rows: list[str], declared: Source | None = None) -> Data:
-    path = tmp_path / "long.csv"
-    path.write_text("\n".join([header, *rows, ""]), encoding="utf-8")
-    return load(Reader(), path, declared or Source(timezone="UTC"))
-
-
-def values(data: Data) -> dict[str, list[float]]:
-    return {name: array.tolist() for (_, name), array in data.values.items()}
 
 
 @pytest.mark.parametrize(
@@ -38,13 +22,13 @@ def test_a_column_of_units_is_known_by_its_header_or_by_a_short_one_and_its_word
 ) -> None:
     said = {"T_vorn": "°C", "p_oel": "bar"}
     rows = [f"{stamp(k)},{tag},{20 + k / 8},{unit}" for k in range(N) for tag, unit in said.items()]
-    data = read(tmp_path, f"time,tag,value,{header}", rows)
+    data = read_long(tmp_path, f"time,tag,value,{header}", rows)
     assert {s.name: s.unit for s in data.recording.signals} == (said if units else dict.fromkeys(said))
 
 
 def test_a_short_header_over_words_that_are_no_units_says_none(tmp_path: Path) -> None:
     rows = [f"{stamp(k)},{tag},{20 + k / 8},{word}" for k in range(N) for tag, word in (("T1", "bar"), ("T2", "ERR"))]
-    data = read(tmp_path, "time,tag,value,E", rows)
+    data = read_long(tmp_path, "time,tag,value,E", rows)
     assert {s.unit for s in data.recording.signals} == {None}
 
 
@@ -58,7 +42,7 @@ def test_rows_in_units_that_convert_are_given_in_the_first_of_them(tmp_path: Pat
             ("state", "auto", ""),
         )
     ]
-    data = read(tmp_path, "Timestamp,Channel,Value,Unit", rows)
+    data = read_long(tmp_path, "Timestamp,Channel,Value,Unit", rows)
     assert {s.name: s.unit for s in data.recording.signals} == {"T": "degF", "dZ": "µm", "state": None}
     found = values(data)
     np.testing.assert_allclose(found["dZ"], [k / 8 for k in range(N)], rtol=1e-12)
@@ -82,7 +66,7 @@ def test_values_with_their_unit_behind_them_are_numbers_in_it(tmp_path: Path, he
             ("mc/block", f"N{k} G1" if k % 3 else "10 mm"),
         )
     ]
-    data = read(tmp_path, header, [*rows, f"{stamp(5 * N)},mc/T,7 bar"])
+    data = read_long(tmp_path, header, [*rows, f"{stamp(5 * N)},mc/T,7 bar"])
     own = {s.name: (s.unit, s.dtype) for s in data.recording.signals}
     numbers = {"mc/T": "°C", "mc/n": "rpm", "mc/dZ": "µm", "mc/dX": None}
     words = dict.fromkeys(("mc/coolant", "mc/block"), (None, "str"))
@@ -97,14 +81,14 @@ def test_values_with_their_unit_behind_them_are_numbers_in_it(tmp_path: Path, he
 
 def test_values_whose_units_do_not_convert_stay_words(tmp_path: Path) -> None:
     rows = [f"{stamp(5 * k)},{t},{k} {'bar' if t == 'p' and k % 2 else 'rpm'}" for k in range(N) for t in ("p", "n")]
-    own = {s.name: (s.unit, s.dtype) for s in read(tmp_path, "Time,Tag,Value", rows).recording.signals}
+    own = {s.name: (s.unit, s.dtype) for s in read_long(tmp_path, "Time,Tag,Value", rows).recording.signals}
     assert own == {"p": (None, "str"), "n": ("rpm", "float64")}
 
 
 @pytest.mark.parametrize("word", ["n/a", "-", "NaN"])
 def test_a_word_for_nothing_is_no_second_unit(tmp_path: Path, word: str) -> None:
     rows = [f"{stamp(5 * k)},T,{k / 8},{word if k % 7 == 0 else 'degC'}" for k in range(N)]
-    data = read(tmp_path, "Timestamp,Channel,Value,Unit", [*rows, f"{stamp(5 * N)},dZ,1.5,um"])
+    data = read_long(tmp_path, "Timestamp,Channel,Value,Unit", [*rows, f"{stamp(5 * N)},dZ,1.5,um"])
     assert {s.name: s.unit for s in data.recording.signals} == {"T": "degC", "dZ": "um"}
     np.testing.assert_allclose(values(data)["T"][:N], [k / 8 for k in range(N)])
     assert not data.losses
@@ -113,7 +97,7 @@ def test_a_word_for_nothing_is_no_second_unit(tmp_path: Path, word: str) -> None
 def test_rows_in_units_that_do_not_convert_are_refused_or_lost(tmp_path: Path) -> None:
     rows = [f"{stamp(5 * k)},{t},{k / 8},um" for k in range(N) for t in ("dX", "dZ")]
     with pytest.raises(FormatError, match="'dZ' has several units"):
-        read(tmp_path, "Timestamp,Channel,Value,Unit", [*rows[:-1], rows[-1].replace("um", "degC")])
+        read_long(tmp_path, "Timestamp,Channel,Value,Unit", [*rows[:-1], rows[-1].replace("um", "degC")])
 
 
 def test_a_unit_behind_the_first_look_converts_or_is_a_loss(tmp_path: Path) -> None:
@@ -122,7 +106,7 @@ def test_a_unit_behind_the_first_look_converts_or_is_a_loss(tmp_path: Path) -> N
     ]
     rows[60_001] = rows[60_001].replace("um", "mm")
     rows[60_003] = rows[60_003].replace("um", "degC")
-    data = read(tmp_path, "Timestamp,Channel,Value,Unit", rows)
+    data = read_long(tmp_path, "Timestamp,Channel,Value,Unit", rows)
     assert [loss.reason for loss in data.losses] == [
         "'dZ': a value in 'degC', which does not convert to um: '7500.375'"
     ]

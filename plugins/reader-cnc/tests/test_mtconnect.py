@@ -15,6 +15,8 @@ from thermodata.reader.finding.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load, reader_checks
 
+from .logs import written
+
 REAL = Path(__file__).resolve().parents[4] / "shared" / "data" / "mtconnect"
 needs_real = pytest.mark.skipif(not REAL.exists(), reason="shared/data/mtconnect is not here")
 SHDR = """2026-03-02T08:00:00.000000Z|avail|AVAILABLE|S1speed|0|Xpos|1.5|Prog|A 1
@@ -30,12 +32,6 @@ SHDR = """2026-03-02T08:00:00.000000Z|avail|AVAILABLE|S1speed|0|Xpos|1.5|Prog|A 
 2026-03-02T08:00:05.000000Z|note|17|a message
 """
 T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
-
-
-def written(tmp_path: Path, text: str, name: str) -> Path:
-    path = tmp_path / name
-    path.write_bytes(text.encode())
-    return path
 
 
 def column(data: Data, name: str) -> list[object]:

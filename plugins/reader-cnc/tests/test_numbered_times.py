@@ -14,7 +14,7 @@ from thermodata.errors import QuestionError, UsageError
 from thermodata.plugin import Source
 from thermodata.testing.reader.case import Data, load
 
-from .test_sco_opcua import written
+from .logs import written
 
 SIX = int(np.datetime64("2026-04-13T06:00:00", "ns").astype(np.int64))
 EPOCH_S = 1776060000

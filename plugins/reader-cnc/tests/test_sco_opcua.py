@@ -15,6 +15,8 @@ from thermodata.reader.finding.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
+from .logs import written
+
 GLOBAL = "%[GLOBAL]\r\n%VERSION=1\r\n%DATE=02.03.2026\r\n%TIME=09:00:00\r\n%\r\n"
 
 
@@ -35,12 +37,6 @@ def scope(rows: int = 20, start: str = GLOBAL) -> str:
         + "%[DATA]\r\n"
         + data
     )
-
-
-def written(tmp_path: Path, text: str, name: str, encoding: str = "utf-8") -> Path:
-    path = tmp_path / name
-    path.write_bytes(text.encode(encoding))
-    return path
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])

@@ -15,6 +15,8 @@ from thermodata.reader.finding.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
+from .logs import written
+
 CURRENT, POSITION, CHANNEL = (
     "/Nck/!SD/nckServoDataActCurr32 [u1, 7]",
     "/Nck/!SD/nckServoDataActPos1stEnc32 [u1, 1]",
@@ -45,12 +47,6 @@ def xml(rows: int = 300, count: int | None = None, start: str = "2026-03-02T09:0
         + "\n".join(recs)
         + "\n</dataFrame></traceData>\n</traceSession>\n"
     )
-
-
-def written(tmp_path: Path, text: str, name: str) -> Path:
-    path = tmp_path / name
-    path.write_bytes(text.encode())
-    return path
 
 
 @pytest.mark.parametrize("feed", [1 << 20, 1000])
