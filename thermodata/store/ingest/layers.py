@@ -15,7 +15,8 @@ from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote
 from thermodata.store.ingest.known.state import version_of
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.raw_layer import RawIngest
-from thermodata.store.ingest.tidy_layer import Making, TidyLayer, tidy_tests
+from thermodata.store.ingest.tidier import Making
+from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan.plan import bind
 from thermodata.store.tidy.values.calibrations import evaluate
