@@ -11,7 +11,7 @@ from thermodata.reader.text.cells.values.status import is_good
 from thermodata_reader_cnc.events import GONE
 from thermodata_reader_cnc.messages.json_text import Number, loads
 from thermodata_reader_cnc.messages.shape import QC, Shape, shape_of
-from thermodata_reader_cnc.opcua.long_layout import bare
+from thermodata_reader_cnc.opcua.long_words import bare
 
 _DEEPEST = 8  # objects within objects
 _LONGEST_WORD = 64  # letters of a time, a unit, a quality

@@ -8,8 +8,8 @@ from functools import lru_cache
 
 from thermodata.reader.signals.header_words import LABEL_WORDS, NAME_WORDS, UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.text.cells.values.status import tells_quality
-from thermodata_reader_cnc.opcua.long_layout import bare
 from thermodata_reader_cnc.opcua.long_times import Times, time_columns
+from thermodata_reader_cnc.opcua.long_words import bare
 
 _OF_BROKER = "tst"  # what mosquitto_sub calls the time at which a message came
 _NAMES = ("topic", *NAME_WORDS)

@@ -29,7 +29,8 @@ from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
-from thermodata_reader_cnc.opcua.long_layout import Layout, find_layout
+from thermodata_reader_cnc.opcua.find_layout import find_layout
+from thermodata_reader_cnc.opcua.long_layout import Layout
 from thermodata_reader_cnc.opcua.row_units import in_unit_of, units_of
 from thermodata_reader_cnc.opcua.sections import Sections, find_sections
 

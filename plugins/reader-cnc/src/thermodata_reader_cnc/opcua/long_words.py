@@ -64,3 +64,8 @@ def value_pairs(names: Sequence[str], rows: Sequence[Sequence[str]]) -> list[tup
         return []
     words = [clean(cells[k]) for cells in rows if len(cells) == len(names) for k in tags]
     return [] if not words or any(map(is_number, words)) else list(zip(tags, values, strict=True))
+
+
+def bare(name: str) -> str:
+    """A name without what names are written with: 'Tag Name', '_TAG_NAME'."""
+    return re.sub(r"[\s_.#()-]", "", clean(name)).casefold()

@@ -12,7 +12,8 @@ import numpy as np
 from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import chunks
-from thermodata_reader_cnc.opcua.long_layout import Layout, clean_line, find_layout
+from thermodata_reader_cnc.opcua.find_layout import find_layout
+from thermodata_reader_cnc.opcua.long_layout import Layout, clean_line
 
 _HEADS = (b",_time,", b'"_time"', b",_time\r", b",_time\n")  # one of which the header of each such table holds
 _PART = 1 << 20
