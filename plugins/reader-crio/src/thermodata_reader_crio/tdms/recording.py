@@ -14,7 +14,7 @@ from thermodata.schema.words.sentences import counted, with_count
 from thermodata_reader_crio.tdms.channels.channel import Channel
 from thermodata_reader_crio.tdms.file import File, open_file
 from thermodata_reader_crio.tdms.losses import losses
-from thermodata_reader_crio.tdms.raw.columns import TEXT
+from thermodata_reader_crio.tdms.raw.places import TEXT
 from thermodata_reader_crio.tdms.raw.values import read
 from thermodata_reader_crio.tdms.streams import Stream
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Source
 from thermodata_reader_crio.tdms.file import open_file
-from thermodata_reader_crio.tdms.raw.columns import TEXT, Column
+from thermodata_reader_crio.tdms.raw.columns import Column
+from thermodata_reader_crio.tdms.raw.places import TEXT
 from thermodata_reader_crio.tdms.raw.values import read
 from thermodata_reader_crio.tdms.streams import Stream
 

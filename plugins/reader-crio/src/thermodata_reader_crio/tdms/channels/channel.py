@@ -15,7 +15,8 @@ from thermodata.plugin import Scaling, Signal
 from thermodata.reader.text.preamble.scale_words import stated_of
 from thermodata_reader_crio.tdms.channels.channel_clock import clock_of
 from thermodata_reader_crio.tdms.channels.waveform_clock import Clock
-from thermodata_reader_crio.tdms.raw.columns import TEXT, Column
+from thermodata_reader_crio.tdms.raw.columns import Column
+from thermodata_reader_crio.tdms.raw.places import TEXT
 from thermodata_reader_crio.tdms.segments.chunk_layout import BOOL
 from thermodata_reader_crio.tdms.segments.index import Index
 

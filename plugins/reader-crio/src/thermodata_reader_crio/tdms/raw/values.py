@@ -13,7 +13,8 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata_reader_crio.tdms.raw.columns import TEXT, Column, Kind
+from thermodata_reader_crio.tdms.raw.columns import Column
+from thermodata_reader_crio.tdms.raw.places import TEXT, Kind
 from thermodata_reader_crio.tdms.raw.text import read_words
 
 _GAP_BYTES = 16 * 1024  # a hole up to this size is cheaper to read over than to seek over
