@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from thermodata.cli.app import cli
 from thermodata.errors import UsageError
-from thermodata.modelling import run
+from thermodata.modelling import comparing, run
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.named import fit_named, newest_model
 from thermodata.modelling.versions.as_kept import as_kept
@@ -91,7 +91,7 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     assert run.load(store, model).fitted.parameters()["spindle_bearing.gain"].value == pytest.approx(
         was.parameters["spindle_bearing.gain"].value, rel=1e-12
     )
-    assert run.compare(store, [model]) == [was]
+    assert comparing.compare(store, [model]) == [was]
     line = stale_line(store, model)
     assert line is not None
     assert model in line
@@ -159,16 +159,16 @@ def test_advice_on_a_model_that_was_fitted_again_names_that_fit(
     fewer = run.fit(store, spec(*EFFECTS[:1])).model
     edit("role: verification", "role: calibration")
     with pytest.raises(UsageError, match=f"thermodata fit {fewer}; thermodata fit {model}"):
-        run.compare_against(store, [fewer], model)
+        comparing.compare_against(store, [fewer], model)
     now = fit_named(store, model).model
     with pytest.raises(UsageError) as refused:
-        run.compare_against(store, [fewer], model)
+        comparing.compare_against(store, [fewer], model)
     assert f"thermodata fit {fewer};" in str(refused.value), "only what is left to do"
     assert f"fit {model}" not in str(refused.value)
     of_fewer = fit_named(store, fewer).model
     with pytest.raises(UsageError, match=f"thermodata compare {of_fewer} --against {now}"):
-        run.compare_against(store, [fewer], model)
-    assert run.compare_against(store, [of_fewer], now)
+        comparing.compare_against(store, [fewer], model)
+    assert comparing.compare_against(store, [of_fewer], now)
     assert f"{now} is it" in str(stale_line(store, model))
     assert "thermodata fit" not in str(stale_line(store, model))
 
@@ -177,7 +177,7 @@ def test_a_model_whose_data_are_set_back_is_as_it_was_fitted(
     edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
 ) -> None:
     store, model, edit = edited
-    was = run.compare(store, [model])
+    was = comparing.compare(store, [model])
     assert edit("role: verification", "role: none") == [model]
     assert edit("kind: spectrum", "kind: mixed") == []
     assert "description of " in str(stale_line(store, model))
@@ -188,7 +188,7 @@ def test_a_model_whose_data_are_set_back_is_as_it_was_fitted(
     assert edit("role: none", "role: verification") == []
     assert stale_line(store, model) is None
     assert not run.load(store, model).kept
-    assert run.compare(store, [model]) == was
+    assert comparing.compare(store, [model]) == was
     raw = tmp_path / "raw" / "t0.csv"
     text = raw.read_text()
     for now, differs in ((text.replace("0.1", "0.3"), True), (text, False)):
@@ -272,7 +272,7 @@ def test_a_test_that_is_new_leaves_a_model_as_it_was_fitted(
     name = next(t.test for t in world.tests if t.role == "calibration")
     (tmp_path / "raw" / "later.csv").write_text((tmp_path / "raw" / f"{name}.csv").read_text().replace("0.1", "0.3"))
     edit("tests:\n", "tests:\n- {id: later, kind: spectrum, role: calibration}\n")
-    now = run.compare(store, [model])[0]
+    now = comparing.compare(store, [model])[0]
     assert now.parameters == was.parameters
     assert {s.role for s in now.scores if s.test == "later"} == {"verification"}
 
@@ -285,7 +285,7 @@ def later(store: Store, edit: Callable[[str, str], list[str]], folder: Path) -> 
 
 
 def roles(store: Store, model: str) -> dict[str, str]:
-    return {s.test: s.role for s in run.compare(store, [model])[0].scores if s.phase == "all"}
+    return {s.test: s.role for s in comparing.compare(store, [model])[0].scores if s.phase == "all"}
 
 
 def test_a_test_more_leaves_the_roles_of_a_model_file(
@@ -310,9 +310,9 @@ def test_a_test_more_leaves_a_model_inside_of_a_model(
     store, _, edit = edited
     run.fit(store, spec("ambient_frame", name="frame"))
     outer = run.fit(store, spec({"effect": "model", "name": "frame"}, "spindle_bearing", name="outer")).model
-    was = run.compare(store, [outer])[0]
+    was = comparing.compare(store, [outer])[0]
     later(store, edit, tmp_path)
-    now = run.compare(store, [outer])[0]
+    now = comparing.compare(store, [outer])[0]
     assert now.parameters == was.parameters
     assert {s.test: s.rmse_um for s in now.scores if s.test != "later"} == pytest.approx(
         {s.test: s.rmse_um for s in was.scores}
@@ -327,7 +327,7 @@ def test_a_test_more_leaves_the_checks_of_each_response(
     model = run.fit(store, spec("ambient_frame", "spindle_bearing", name="two", response=both)).model
 
     def names() -> list[str]:
-        return [c.name for c in run.compare(store, [model])[0].checks]
+        return [c.name for c in comparing.compare(store, [model])[0].checks]
 
     was = names()
     assert any(n.partition(":")[2].startswith("dZ") for n in was)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import yaml
 
-from thermodata.modelling import run
+from thermodata.modelling import comparing, run
 from thermodata.modelling.add import add
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
@@ -54,7 +54,7 @@ def test_a_refit_fits_no_verification_test_that_came_after_the_choice(
     assert roles(again) == {"t5": "verification (in-sample)", "t6": "verification"}
     assert again.parameters == chosen.parameters, "nothing of what was fitted has changed"
     assert FRESH in again.notes
-    assert roles(run.compare(store, [again.model])[0]) == roles(again)
+    assert roles(comparing.compare(store, [again.model])[0]) == roles(again)
     less = remove(store, again.model, "coolant")
     assert (roles(less), FRESH in less.notes) == (roles(again), True)
     # a choice that is made now is made with it

@@ -12,7 +12,7 @@ import yaml
 
 from thermodata.cli.look.query import sql_command
 from thermodata.errors import StoreError, UsageError
-from thermodata.modelling import run
+from thermodata.modelling import comparing, run
 from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
@@ -301,7 +301,7 @@ def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store,
 
 def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None:
     a, b = run.fit(store, spec(*EFFECTS)), run.fit(store, spec("spindle_bearing", name="bare"))
-    first, second = run.compare(store, [a.model, b.model])
+    first, second = comparing.compare(store, [a.model, b.model])
     assert [s.test for s in first.scores] == [s.test for s in second.scores]
     assert first.scores[0].rmse_um is not None
     assert second.scores[0].rmse_um is not None
@@ -309,7 +309,7 @@ def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None
 
 
 def test_carrying_over(store: Store, spec: Spec) -> None:
-    rows = run.transfer(store, run.fit(store, spec(*EFFECTS)).model)
+    rows = comparing.transfer(store, run.fit(store, spec(*EFFECTS)).model)
     assert {r.machine for r in rows} == {"m1"}
     assert all(r.g == pytest.approx(1.0, abs=0.1) for r in rows)
     assert all(r.verdict == "portable" for r in rows)
@@ -341,20 +341,20 @@ def test_carrying_over_to_another_campaign_of_the_store(
     }
     (tmp_path / "other.yaml").write_text(yaml.safe_dump(other))
     ingest(made, tmp_path / "other.yaml")
-    assert {r.campaign for r in run.transfer(made, model)} == {"c"}, "its own where nothing is asked"
+    assert {r.campaign for r in comparing.transfer(made, model)} == {"c"}, "its own where nothing is asked"
     for asked in ({"campaigns": ["d"]}, {"tests": ["n0"]}, {"tests": ["d/n0"]}):
-        [row] = run.transfer(made, model, **asked)
+        [row] = comparing.transfer(made, model, **asked)
         assert (row.campaign, row.test, row.machine, row.role) == ("d", "n0", "m2", "calibration"), (
             "as its campaign has it"
         )
         assert row.g == pytest.approx(1.25, abs=0.05)
-    assert [r.test for r in run.transfer(made, model, ["t0", "n0"])] == ["t0", "n0"]
+    assert [r.test for r in comparing.transfer(made, model, ["t0", "n0"])] == ["t0", "n0"]
     with pytest.raises(UsageError, match="locked: d/n1"):
-        run.transfer(made, model, ["n1"])
+        comparing.transfer(made, model, ["n1"])
     with pytest.raises(UsageError, match="no campaign 'e'"):
-        run.transfer(made, model, campaigns=["e"])
+        comparing.transfer(made, model, campaigns=["e"])
     with pytest.raises(UsageError, match="no test 't0'"):
-        run.transfer(made, model, ["t0"], campaigns=["d"])
+        comparing.transfer(made, model, ["t0"], campaigns=["d"])
     with made.reader() as con:
         assert con.execute("select distinct campaign from portability").fetchall() == [("c",)]
 
@@ -363,7 +363,7 @@ def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> 
     model = run.fit(store, spec(*EFFECTS)).model
     for names in (["t7"], ["t0", "t7"]):
         with pytest.raises(UsageError, match=r"locked: c/t7; opened only to confirm") as caught:
-            run.transfer(store, model, names)
+            comparing.transfer(store, model, names)
         assert (caught.value.where, caught.value.got, caught.value.exit_code) == ("--test", "c/t7", 2)
     with store.reader() as con:
         assert con.execute("select count(*) from locked_look where model = ?", [model]).fetchone() == (0,)

@@ -50,7 +50,7 @@ class Comparison(Shown):
     @property
     def differences(self) -> Listed:
         """Each model's error less that of the first, by test, with its interval of 95 %."""
-        from thermodata.modelling.run import differences_of
+        from thermodata.modelling.comparing import differences_of
 
         found = differences_of(self.store, [r.model for r in self.results])
         rows = [d.to_json() for d in found]
@@ -88,7 +88,7 @@ def scores_of(results: Sequence[FitResult], columns: Sequence[tuple[str, str]], 
 
 def compared(store: Store, refs: Sequence[str]) -> Comparison:
     """Models of the store beside each other."""
-    from thermodata.modelling.run import compare
+    from thermodata.modelling.comparing import compare
 
     results = compare(store, refs)
     heed(store, [result.model for result in results])

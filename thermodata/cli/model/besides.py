@@ -29,7 +29,7 @@ def answer_against(
     session: Session, store: Store, models: Sequence[str], against: str, layout: str, tests: Sequence[str]
 ) -> None:
     """Print the table of `compare --against`. models, against: as the store knows them; tests: none for all."""
-    from thermodata.modelling.run import compare_against
+    from thermodata.modelling.comparing import compare_against
     from thermodata.report.text.fit import leveled
 
     rows = [plain(row) for row in compare_against(store, models, against, tests)]

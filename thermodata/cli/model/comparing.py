@@ -99,8 +99,9 @@ def compare_command(
 
 
 def _answer_scores(session: Session, store: Store, models: list[str]) -> None:
+    from thermodata.modelling.comparing import compare, differences_of
     from thermodata.modelling.model_file.not_installed import not_installed
-    from thermodata.modelling.run import compare, differences_of, load
+    from thermodata.modelling.run import load
     from thermodata.report.collected.spots import weak_spots_of
     from thermodata.store.catalogue.models.findings import load_diagnosis
     from thermodata.store.catalogue.models.fits import find_model
@@ -179,7 +180,7 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...], ca
     with_correction, not_portable.
     """
     from thermodata.modelling.compare.elsewhere import other_campaigns
-    from thermodata.modelling.run import transfer
+    from thermodata.modelling.comparing import transfer
     from thermodata.store.catalogue.models.fits import find_model
 
     store = session.store()
