@@ -18,7 +18,7 @@ from thermodata.store.ingest.reading.raw_layer import RawIngest
 from thermodata.store.ingest.tidier import Making
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.plan.plan import bind
+from thermodata.store.tidy.plan.bind import bind
 from thermodata.store.tidy.values.calibrations import evaluate
 
 

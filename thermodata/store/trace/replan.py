@@ -12,7 +12,8 @@ from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock.source_clock import Clock, span
 from thermodata.store.tidy.clock.undated import bases
 from thermodata.store.tidy.clock_offsets import clock_from_json
-from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan, bind
+from thermodata.store.tidy.plan.bind import bind
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.values.series import Member, TestSeries
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from thermodata.errors import UsageError, unknown_channel
 from thermodata.schema.files.campaign import Campaign, Channel, Test
 from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.plan import derive
-from thermodata.store.tidy.plan.plan import effective
+from thermodata.store.tidy.plan.bind import effective
 
 RATED = "position"  # the one quantity that has a rate
 
