@@ -35,6 +35,7 @@ def pages_of(store: Store) -> dict[str, str]:
         if models[0].parent:
             pages["missing-before"] = f"/missing?model={models[0].parent}"
             pages["add"] = f"/add?model={models[0].parent}&candidate=1"
+            pages["confirm"] = f"/confirm?model={models[0].parent}&candidate=2"
     query = quote(f"select t_s, value from signal('{campaign}', '{test}', '{channel}')")
     return {**pages, "sql": f"/sql?q={query}", "start": "/start"}
 

@@ -28,6 +28,7 @@ PAGES = (
     "/missing",
     "/compare?over=spindle_speed",
     "/add?model=baseline&candidate=1",
+    "/confirm?model=baseline&candidate=lag:T_hall",
     "/sql?q=select+t_s,+value+from+signal('small','heat1','dZ')",
     "/start",
     "/report",

@@ -217,7 +217,7 @@ def test_errors_that_others_share_are_said_to_be_theirs_too(lab: Path) -> None:
     client = client_of(lab, write=True)[0]
     text = client.get("/missing").text
     assert "Error on left-out parts of 1 test <b>2.48 → 1.34 µm</b> (both with lag:T_x, which adding this alone" in text
-    assert re.search(r'lag:T_y</td>.*<td class="muted">lag:T_x</td></tr>', text.replace("<wbr>", ""))
+    assert re.search(r'lag:T_y</td>.*<td class="muted">lag:T_x</td>', text.replace("<wbr>", ""))
     offer = client.get(link("/add", model=model, candidate=one.id)).text
     assert "(both with lag:T_x, which adding this alone does not bring)" in offer
     assert "With it added, on left-out parts of 1 test: <b>2.41 → 2.33 µm</b>" in offer

@@ -20,7 +20,7 @@ from thermodata.web.later import later
 from thermodata.web.render import desk_of, page
 from thermodata.web.work import Work
 
-_OF_A_STORE = ("/", "/test", "/compare", "/add", "/sql", "/report", "/missing", "/trace")  # pages, whole
+_OF_A_STORE = ("/", "/test", "/compare", "/add", "/confirm", "/sql", "/report", "/missing", "/trace")  # pages, whole
 
 
 def application(desk: Desk) -> Starlette:
@@ -42,6 +42,7 @@ def application(desk: Desk) -> Starlette:
             Route("/test/range", later("test.stretch"), methods=["GET"]),
             Route("/compare", later("compare.show"), methods=["GET"]),
             Route("/add", later("adding.show"), methods=["GET"]),
+            Route("/confirm", later("confirming.show"), methods=["GET"]),
             Route("/sql", later("sql.show"), methods=["GET"]),
             Route("/sql/{form}", later("sql.take"), methods=["GET"]),
             Route("/report", later("report.show"), methods=["GET"]),

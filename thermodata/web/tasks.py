@@ -30,6 +30,15 @@ def add(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
     return {"model": result.model, "onward": _to("/compare", model=result.model)}
 
 
+def confirm(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
+    """`thermodata confirm MODEL CANDIDATE`."""
+    from thermodata.diagnosis.run import confirm_choice
+
+    with watched(tell):
+        found, _ = confirm_choice(Store(store), model, candidate)
+    return {"holds": found.holds, "onward": _to("/confirm", model=found.model, candidate=found.candidate)}
+
+
 def fit(store: Path, tell: Tell, path: str) -> dict[str, Any]:
     """`thermodata fit MODEL.yaml`."""
     from thermodata.modelling.run import fit as run
@@ -76,6 +85,7 @@ TASKS: dict[str, Task] = {
     "draft": draft,
     "diagnose": diagnose,
     "add": add,
+    "confirm": confirm,
     "fit": fit,
     "ingest": ingest,
     "report": report,

@@ -20,6 +20,14 @@ def confirmed_sentence(result: Confirmed) -> str:
     return "; ".join(filter(None, told))
 
 
+def held_in_words(result: Confirmed) -> str:
+    """'holds', 'holds in shape only', 'does not hold', 'hardly acts there'."""
+    if result.holds is None:
+        return "hardly acts there"
+    in_shape_only = not result.holds and result.holds_by_shape is True
+    return "holds" if result.holds else "holds in shape only" if in_shape_only else "does not hold"
+
+
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person, and what to type next where it holds."""
     head = confirmed_sentence(result)
@@ -83,8 +91,7 @@ def _confirmed_sentence(result: Confirmed) -> str:
             "of it" + (f" ({scored})" if scored else "") + ": one that moves it more would, locked, from a cold start"
         )
     in_shape_only = result.holds is False and result.holds_by_shape is True
-    said = "holds" if result.holds else "holds in shape only" if in_shape_only else "does not hold"
-    head = f"{result.candidate} {said} on the locked tests"
+    head = f"{result.candidate} {held_in_words(result)} on the locked tests"
     if before is None or after is None:
         return head
     shape = ""

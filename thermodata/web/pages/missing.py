@@ -12,9 +12,11 @@ from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
 from thermodata.report.charts.courses import course_chart
 from thermodata.report.charts.heat import heat_charts
+from thermodata.report.collected.by_choice import asked_by_choice
 from thermodata.report.collected.older import is_of_other_data
 from thermodata.report.page.headline import capital
 from thermodata.report.text.clauses import clauses
+from thermodata.report.text.confirmed import confirmed_sentence, held_in_words
 from thermodata.report.verdict.candidate_errors import beside, left_out_tests
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
@@ -27,10 +29,8 @@ from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
-from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models.findings import load_diagnosis
 from thermodata.store.catalogue.models.fits import StoredModel, find_model
-from thermodata.store.catalogue.models.looks import looks_of
 from thermodata.store.catalogue.models.stale import all_fitted_again
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.grid.load import data_version
@@ -38,8 +38,9 @@ from thermodata.view.lists.models import ModelRow, model_rows
 from thermodata.view.lists.response_units import response_units, told_together, unit_of
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
-from thermodata.web.pages.parts.confirmed import confirmed, proposed
+from thermodata.web.pages.parts.confirmed import proposed
 from thermodata.web.pages.parts.drawn import among, pair
+from thermodata.web.pages.parts.locked import locked_tests, next_look
 from thermodata.web.render import desk_of, page
 
 # where the evidence behind a rung stands on the page
@@ -64,7 +65,6 @@ STUMBLES = {
     "probability": "not likely enough",
 }
 JUDGED_BESIDE = "judged beside others"
-_LOOKS = 6  # that are told of one test
 _NOTHING = {
     "none": ("Nothing is missing", "What is left is noise, or what lags leave of any machine."),
     "unknown": ("Something is missing that has no name", "No effect of the library has its timing."),
@@ -85,7 +85,10 @@ def show(request: Request) -> Response:
     found, stored = load_diagnosis(store, model.model), find_model(store, model.model)
     unit = unit_of(store, found.response, model.campaigns) if found else model.unit
     together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
-    answer = {"headline": "What does it miss?", "further": ""} if found is None else _answer(store, found, model, unit)
+    locks = _locks(store, model)
+    acts = desk.write and bool(locks["locked"])
+    nothing = {"headline": "What does it miss?", "further": ""}
+    answer = nothing if found is None else _answer(store, found, model, unit, acts=acts)
     return page(
         request,
         "missing.html.j2",
@@ -96,8 +99,7 @@ def show(request: Request) -> Response:
         found=found,
         unit=unit,
         error_of=worst_of(together, model.responses),
-        looks=_looks(store, model),
-        locked=_locked(store, model),
+        **locks,
         unbound=_unbound(store, model),
         rung_target=RUNG_TARGET,
         stumbles=_stumbles,
@@ -111,14 +113,14 @@ def show(request: Request) -> Response:
     )
 
 
-def _answer(store: Store, found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
-    """What the page tells of the kept answer. unit: of its response."""
+def _answer(store: Store, found: Diagnosis, model: ModelRow, unit: str, *, acts: bool) -> dict[str, Any]:
+    """What the page tells of the kept answer. unit: of its response. acts: whether it has a button that opens locks."""
     shown, claims = told(found), claims_of(found)
     added = _added(found, model)
     missing = [c for c in claims if c.id not in added]
     first, rest = _headline(found)
-    by_choice = confirmed(store, model, found)
-    further, to_ask = proposed(rest, by_choice)
+    by_choice = asked_by_choice(store, model.model, model.responses, found)
+    further, to_ask = proposed(rest, by_choice, acts=acts)
     title, text = _NOTHING.get(found.verdict, _NOTHING["none"])
     heat = found.unknown.heat if found.unknown else None
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
@@ -126,7 +128,8 @@ def _answer(store: Store, found: Diagnosis, model: ModelRow, unit: str) -> dict[
         "headline": in_unit(first, unit),
         "further": [in_unit(clause, unit) for clause in further],
         "to_ask": to_ask,
-        "by_choice": [in_unit(said, unit) for said in by_choice.values()],
+        "by_choice": {name: in_unit(confirmed_sentence(answer), unit) for name, answer in by_choice.items()},
+        "held": {name: held_in_words(answer) for name, answer in by_choice.items()},
         "about": _about(found, model, unit),
         "of_response": capital(of_response(found)),
         "told": shown,
@@ -212,30 +215,14 @@ def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
     return "; ".join(filter(None, [*parts, explainable(found)]))
 
 
-def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
-    """Of each test how often it was opened, and for what: each look with its model, the last ones where they are
-    many."""
-    rows = []
-    for (campaign, test), looks in looks_of(store, model.campaigns).items():
-        said = [f"{look.model[:6]}: {look.reason}" for look in looks[-_LOOKS:]]
-        left = len(looks) - len(said)
-        reason = "; ".join([f"{left} before"] * bool(left) + said)
-        rows.append({"test": _named(model, campaign, test), "n": len(looks), "reason": reason})
-    return rows
-
-
-def _locked(store: Store, model: ModelRow) -> list[str]:
-    with store.reader() as con:
-        rows = fetch(
-            con,
-            "select campaign, test from test where role = 'locked' and list_contains(?, campaign)",
-            [list(model.campaigns)],
-        )
-    return [_named(model, row["campaign"], row["test"]) for row in rows]
-
-
-def _named(model: ModelRow, campaign: str, test: str) -> str:
-    return f"{campaign}/{test}" if len(model.campaigns) > 1 else test
+def _locks(store: Store, model: ModelRow) -> dict[str, Any]:
+    """What was opened and for what, what is locked, and which look the next one is."""
+    known = locked_tests(store, model)
+    return {
+        "looks": [one for one in known if one.n],
+        "locked": [one.test for one in known if not one.open],
+        "next_look": next_look(known),
+    }
 
 
 def _unbound(store: Store, model: ModelRow) -> list[Any]:

@@ -18,6 +18,7 @@ STARTED = {
     "draft": (("folder",), "Looking at every file"),
     "diagnose": (("model",), "Asking every candidate"),
     "add": (("model", "candidate"), "Adding {candidate}"),
+    "confirm": (("model", "candidate"), "Asking the locked tests of {candidate}"),
     "fit": (("path",), "Fitting {path}"),
     "ingest": (("campaign",), "Reading the files of {campaign}"),
     "report": (("model", "out"), "Writing the report"),
