@@ -345,3 +345,12 @@ def test_a_state_that_the_residual_does_not_go_with_is_named_and_not_drawn(data:
     assert "feed: r −0.42" in page
     assert "T_hall: r" not in page
     assert "It does not go with T_hall." in page
+
+
+def test_legends_say_what_drives_an_effect_and_the_ends_of_lines_its_id(data: ReportData) -> None:
+    named = {"spindle_bearing": "spindle_bearing (T_brg)"}
+    page = render(dataclasses.replace(data, driven=named))
+    panels = json.loads(dict(_FIGURE.findall(page))["test0"])["panels"]
+    keys = {s["label"]: s["name"] for p in panels if "contributions" in p["title"] for s in p["series"]}
+    assert keys["spindle_bearing"] == "spindle_bearing (T_brg)"
+    assert "</i>spindle_bearing (T_brg)</span>" in page

@@ -284,8 +284,10 @@ def test_contributions_stand_beside_each_other_on_one_scale(writer: Client, lab:
     assert old["range"] == new["range"]
     assert apart["title"].endswith("on its own scale")
     added = set(model_rows(store)[0].terms) - set(model_rows(store)[1].terms)
-    assert added == {s["name"] for s in new["series"]} - {s["name"] for s in old["series"]}
-    assert added <= {s["name"] for s in apart["series"]}
+    assert added == {s["label"] for s in new["series"]} - {s["label"] for s in old["series"]}
+    assert added <= {s["label"] for s in apart["series"]}
+    assert "spindle_bearing (T_bearing)" in {s["name"] for s in old["series"]}, "the key says what drives it"
+    assert '<td class="name">spindle_bearing <small class="muted">(T_\u200bbearing)</small>' in text
     # an effect has one colour here and on the page of the test
     chart = writer.get("/test?campaign=small&test=heat1").text
     shares = json.loads(re.search(r'id="chart">(.*?)</script>', chart)[1])["panels"][2]

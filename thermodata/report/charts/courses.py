@@ -8,6 +8,7 @@ from thermodata.chart.colour import EFFECTS
 from thermodata.chart.parts import Axis, Panel, Series
 from thermodata.chart.spec import Chart
 from thermodata.plugin import Float1D, Int1D
+from thermodata.report.verdict.refined import named
 from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, CandidateCourse
 
@@ -22,22 +23,22 @@ def course_chart(c: Candidate, unit: str) -> Chart:
         Axis("time", "h", range=(0.0, length)),
         np.empty(0),
         [
-            Panel(name, unit, _curves(run, c.effect, unit), height=110, zero=True)
+            Panel(name, unit, _curves(run, c, unit), height=110, zero=True)
             for name, run in zip(names_of_pieces(c.courses), c.courses, strict=True)
         ],
     )
 
 
-def _curves(run: CandidateCourse, effect: str, unit: str) -> list[Series]:
+def _curves(run: CandidateCourse, c: Candidate, unit: str) -> list[Series]:
     t_s = np.asarray(run.t_s)
     after = pauses(t_s)
     middle = (t_s[after - 1] + t_s[after]) / 2 if len(after) else t_s[:0]
     hours = np.insert(t_s, after, middle) / 3600
     return [
-        Series(name, unit, np.insert(np.asarray(values, dtype=np.float64), after, np.nan), colour, x=hours)
-        for name, values, colour in (
-            ("residual", run.residual_um, "residual"),
-            (effect, run.contribution_um, EFFECTS[0]),
+        Series(name, unit, np.insert(np.asarray(values, dtype=np.float64), after, np.nan), colour, x=hours, label=label)
+        for name, label, values, colour in (
+            ("residual", "residual", run.residual_um, "residual"),
+            (named(c), c.effect, run.contribution_um, EFFECTS[0]),
         )
     ]
 

@@ -35,17 +35,18 @@ def part_chart(
     noise_um: float | None,
     unit: str,
     most: int,
+    driven: Mapping[str, str] | None = None,
 ) -> Chart:
     """Measured and model, residual with weak spots, contributions, drivers, and the operating state below.
 
-    weak: with their ranks over the whole page.
+    weak: with their ranks over the whole page. driven: an effect -> its name with what drives it.
     """
     drawn = _Drawn(part, unit, block_size(len(part.measured), most))
     hours = _hours(part, drawn.size)
     whole = (part.start_s / 3600, (part.start_s + part.step_s * len(part.measured)) / 3600)
     panels: list[Panel | Strip] = [_measured(drawn), _residual(drawn, noise_um)]
     if part.contributions:
-        panels.append(_contributions(drawn, styles))
+        panels.append(_contributions(drawn, styles, driven or {}))
     if part.drivers:
         panels.append(_drivers(part.drivers, drawn.size))
     panels += [_lane(c, hours, drawn.size) for c in part.lanes]
@@ -93,11 +94,12 @@ def _residual(drawn: _Drawn, noise_um: float | None) -> Panel:
     return Panel("residual: measured − model", drawn.unit, [curve], height=_LOW, zero=True, limits=limits)
 
 
-def _contributions(drawn: _Drawn, styles: Mapping[str, tuple[str, str]]) -> Panel:
+def _contributions(drawn: _Drawn, styles: Mapping[str, tuple[str, str]], driven: Mapping[str, str]) -> Panel:
     shown = drawn.part.contributions
     looks = [styles.get(c.name, ("muted", "solid")) for c in shown]
     curves = [
-        drawn.series(c.name, c.values, colour, c.sd, dash=dash) for c, (colour, dash) in zip(shown, looks, strict=True)
+        drawn.series(driven.get(c.name, c.name), c.values, colour, c.sd, dash=dash, label=c.name)
+        for c, (colour, dash) in zip(shown, looks, strict=True)
     ]
     shaded = f", {SHADED}" if any(c.sd is not None for c in shown) else ""
     return Panel(f"contributions of the effects{shaded}", drawn.unit, curves, height=_MIDDLE)

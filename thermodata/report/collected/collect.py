@@ -19,6 +19,7 @@ from thermodata.report.verdict.verdict import claims_of
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import Score
+from thermodata.view.lists.driven import driven
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
@@ -80,6 +81,7 @@ def collect(store: Store, ref: str) -> ReportData:
         tests=tuple(by_role(parts_of(loaded.fitted, loaded.data, conditions))),
         versions=versions(chain, units, scores),
         units=units,
+        driven=_driven(loaded),
         diagnosis=diagnosis,
         reason=reason.shown,
         reason_of_fit=reason.of_fit,
@@ -94,6 +96,13 @@ def collect(store: Store, ref: str) -> ReportData:
         systems=tuple(see(loaded.fitted, loaded.data)),
         as_stored=told,
     )
+
+
+def _driven(loaded: Loaded) -> dict[str, str]:
+    """An effect -> its name with what drives it in this fit."""
+    places = {name: info.at for name, info in loaded.data.channels.items()}
+    terms = (term for response in loaded.fitted.responses for term in response.terms)
+    return {term.id: driven(term.id, term.binding.values(), places) for term in terms}
 
 
 def _why_added(store: Store, chain: Sequence[StoredModel], loaded: Loaded, *, removed_only: bool) -> _Reason:

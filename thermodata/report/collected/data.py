@@ -146,6 +146,7 @@ class ReportData:
     systems: tuple[SeenResponse, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+    driven: Mapping[str, str] = field(default_factory=dict)
     reason_of_fit: bool = True
     reason_but_for: tuple[str, ...] = ()
     offered: bool = False

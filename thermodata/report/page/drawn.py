@@ -41,7 +41,7 @@ def figures_of(
     for i, part in enumerate(data.tests):
         own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
         noise, unit = noise_of(data, part.response), data.unit_of(part.response)
-        made[f"test{i}"] = part_chart(part, own, styles, noise, unit, most)
+        made[f"test{i}"] = part_chart(part, own, styles, noise, unit, most, data.driven)
     return made
 
 

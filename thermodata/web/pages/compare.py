@@ -26,6 +26,7 @@ from thermodata.store.catalogue.models.stale import stale_line
 from thermodata.view.curves.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.curves.predictions import residual_courses
 from thermodata.view.curves.residuals import Key, predicted_tests, residuals
+from thermodata.view.lists.driven import effects_driven
 from thermodata.view.lists.models import ModelRow, fitted_last, model_rows, term_order
 from thermodata.view.lists.response_units import response_units, told_together
 from thermodata.web.chosen import model_in
@@ -184,14 +185,15 @@ def _contributions(of: _Compared, store_path: Path, named: str) -> dict[str, Any
     shown = _shown_test(of, named)
     beside = contributions(of.store, [m.model for m in of.chosen], *shown) if shown else []
     labels = {m.model: m.label for m in of.chosen}
-    order = term_order(of.models, labels)
+    order, driven = term_order(of.models, labels), effects_driven(of.store, [*labels])
     return {
+        "driven": driven,
         "tests": names,
         "shown_test": shown,
         "labels": labels,
         "beside": beside,
         "beside_charts": [
-            _drawn(part, of.only, labels, of.units.get(part.response, of.pinned.unit), order) for part in beside
+            _drawn(part, of.only, labels, of.units.get(part.response, of.pinned.unit), order, driven) for part in beside
         ],
         "alike": sum(not e.differs for part in beside for e in part.effects) if of.only else 0,
         "banded": any(sd is not None for part in beside for e in part.effects for sd in e.deviations),
@@ -253,11 +255,11 @@ def _has(keys: Sequence[Key], named: str) -> bool:
 
 
 def _drawn(
-    part: Contributions, only: bool, labels: dict[str, str], unit: str, order: list[str]
+    part: Contributions, only: bool, labels: dict[str, str], unit: str, order: list[str], driven: dict[str, str]
 ) -> tuple[Contributions, str, str]:
     """What is listed of it, its chart, and the unit of both."""
     shown = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
-    return shown, script_json(contribution_chart(shown, labels, unit, order).as_json()), unit
+    return shown, script_json(contribution_chart(shown, labels, unit, order, driven).as_json()), unit
 
 
 def _chosen(store: Store, models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:

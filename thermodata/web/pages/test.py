@@ -20,6 +20,7 @@ from thermodata.store import Store
 from thermodata.view.curves.predictions import Prediction, predictions, range_figures
 from thermodata.view.curves.rule_for import rules_for
 from thermodata.view.curves.window import Channel, Window, channels_of, read_window
+from thermodata.view.lists.driven import effects_driven
 from thermodata.view.lists.events import About, about_test
 from thermodata.view.lists.models import ModelRow, model_rows, read_by, role_in_model, term_order
 from thermodata.view.lists.response_units import measured_units, response_units
@@ -46,7 +47,7 @@ def show(request: Request) -> Response:
     role = role_in_model(store, model.model, campaign, test) if model else None
     span = _span(given)
     moving = _moving(store, about, chosen, given) if span else chosen
-    of_model = _of_model(store, campaign, predicted, _order(models, model))
+    of_model = _of_model(store, campaign, predicted, models, model)
     chart = _chart(store, about, moving, of_model, given, named=moving is not chosen)
     return page(
         request,
@@ -81,7 +82,7 @@ def data(request: Request) -> Response:
     known = _known(store, *_named(given))
     model = _model(store, known.models, given)
     _, chosen = _channels(store, known, model, given)
-    of_model = _of_model(store, _named(given)[0], _predicted(store, model, given), _order(known.models, model))
+    of_model = _of_model(store, _named(given)[0], _predicted(store, model, given), known.models, model)
     chart = _chart(store, known.about, chosen, of_model, given)
     return JSONResponse(chart.as_json())
 
@@ -196,16 +197,18 @@ def _stale(store: Store, model: ModelRow | None) -> str | None:
     return stale_line(store, model.model)
 
 
-def _order(models: list[ModelRow], model: ModelRow | None) -> list[str]:
-    return term_order(models, [model.model]) if model else []
-
-
 def _predicted(store: Store, model: ModelRow | None, given: Mapping[str, str]) -> list[Prediction]:
     return predictions(store, model.model, *_named(given)) if model else []
 
 
-def _of_model(store: Store, campaign: str, predicted: list[Prediction], order: list[str]) -> OfModel:
-    return OfModel(predicted, order, measured_units(store, [p.response for p in predicted], [campaign]))
+def _of_model(
+    store: Store, campaign: str, predicted: list[Prediction], models: list[ModelRow], model: ModelRow | None
+) -> OfModel:
+    """models: those of the test's campaign, whose versions keep the colours of their effects."""
+    if model is None:
+        return NO_MODEL
+    units = measured_units(store, [p.response for p in predicted], [campaign])
+    return OfModel(predicted, term_order(models, [model.model]), units, effects_driven(store, [model.model]))
 
 
 def _chart(

@@ -17,14 +17,18 @@ _HOUR = 3600.0
 _ROOM = 0.05  # of what is drawn, above and below
 
 
-def contribution_chart(found: Contributions, labels: Mapping[str, str], unit: str, order: Sequence[str]) -> Chart:
-    """labels: model -> its name on the page. order: all effects that have a colour, in their order."""
+def contribution_chart(
+    found: Contributions, labels: Mapping[str, str], unit: str, order: Sequence[str], driven: Mapping[str, str]
+) -> Chart:
+    """labels: model -> its name on the page. order: all effects that have a colour, in their order. driven: an effect
+    -> its name with what drives it."""
     x = found.t_s / _HOUR
     styles = effect_styles([*order, *(e.effect for e in found.effects)])
     scale = _scale(found.effects)
 
     def series(name: str, y: Float1D, band: Band | None) -> Series:
-        return Series(name, unit, y, styles[name][0], dash=styles[name][1], band=band)
+        own = driven.get(name, name)
+        return Series(own, unit, y, styles[name][0], dash=styles[name][1], label=name, band=band)
 
     panels = []
     for i, model in enumerate(found.models):

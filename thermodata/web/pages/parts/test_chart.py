@@ -26,11 +26,13 @@ _BODIES = {"spindle": "spindle and headstock", "headstock": "spindle and headsto
 
 @dataclass(frozen=True, slots=True)
 class OfModel:
-    """What a model says of a test. order: of its effects, for their colours; units: response -> its unit."""
+    """What a model says of a test. order: of its effects, for their colours; units: response -> its unit; driven: an
+    effect -> its name with what drives it."""
 
     predicted: Sequence[Prediction] = ()
     order: Sequence[str] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+    driven: Mapping[str, str] = field(default_factory=dict)
 
 
 NO_MODEL = OfModel()
@@ -97,7 +99,16 @@ def _of_model(model: OfModel) -> list[Panel]:
                     f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
                     of_errors,
                     [
-                        Series(name, of_errors, y, styles[name][0], x=x, dash=styles[name][1], band=_band(p, name, y))
+                        Series(
+                            model.driven.get(name, name),
+                            of_errors,
+                            y,
+                            styles[name][0],
+                            x=x,
+                            dash=styles[name][1],
+                            label=name,
+                            band=_band(p, name, y),
+                        )
                         for name, y in p.contributions.items()
                     ],
                     zero=True,
