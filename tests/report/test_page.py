@@ -354,3 +354,12 @@ def test_legends_say_what_drives_an_effect_and_the_ends_of_lines_its_id(data: Re
     keys = {s["label"]: s["name"] for p in panels if "contributions" in p["title"] for s in p["series"]}
     assert keys["spindle_bearing"] == "spindle_bearing (T_brg)"
     assert "</i>spindle_bearing (T_brg)</span>" in page
+
+
+def test_behind_each_strip_stands_its_error(data: ReportData) -> None:
+    overview = json.loads(dict(_FIGURE.findall(render(data)))["overview"])
+    assert overview["figures_title"] == "RMSE [µm]"
+    left = [t.residual[np.isfinite(t.residual)] for t in data.tests]
+    assert [float(text) for text in overview["figures"]] == pytest.approx(
+        [np.sqrt(np.mean(r**2)) for r in left], rel=0.01
+    )

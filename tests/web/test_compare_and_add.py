@@ -21,7 +21,7 @@ from thermodata.modelling.run import fit
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
-from thermodata.report.words.numbers import typeset
+from thermodata.report.words.numbers import number, typeset
 from thermodata.store import Store
 from thermodata.store.catalogue.models.fits import find_model
 from thermodata.store.ingest.run import ingest
@@ -29,7 +29,7 @@ from thermodata.store.keep.check import check_store
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.residuals import against, predicted_tests, residuals
 from thermodata.view.lists.models import model_rows
-from thermodata.web.pages.parts.compare_charts import correlated
+from thermodata.web.pages.parts.compare_charts import BINS, _row, correlated
 from thermodata.web.work import Work
 
 from .client import Client
@@ -71,6 +71,13 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     limits = [json.loads(m)["limit"] for m in re.findall(r'id="heat\d">(.*?)</script>', text)]
     assert len(limits) == 2
     assert limits[0] == limits[1]
+    maps = [json.loads(m) for m in re.findall(r'id="heat\d">(.*?)</script>', text)]
+    assert {m["axis"]["unit"] for m in maps} == {"h"}, "a stretch is found again on the page of its test"
+    assert maps[0]["step"] * max(maps[0]["lengths"]) == pytest.approx(6.0, rel=0.02)
+    for one, model in zip(maps, (first.model, model_rows(store)[0].model), strict=True):
+        errors = {s.test: s.rmse_um for s in find_model(store, model).result.scores if s.phase == "all"}
+        assert one["figures"] == [typeset(number(errors[name])) for name in one["rows"]]
+    assert maps[0]["figures_title"] == "error [µm]"
     assert "How the error fell" in text
     assert f'href="/compare?model={first.model}">Back to baseline 1</a>' in text
     assert "where no model is named, pages and commands take the one that was fitted last, baseline 2." in text
@@ -269,6 +276,15 @@ def test_a_drift_over_the_whole_test_correlates_by_no_more_than_one() -> None:
     # the figure of the report, of `show` and of Python
     assert c == pytest.approx(autocorrelation([drift, 3 * drift], len(lag) - 1))
     assert len(drawn_correlation([left(t_s[:1], drift[:1])])[0]) == 1
+
+
+def test_a_strip_is_as_long_as_its_test_and_its_cells_are_means_of_what_was_measured() -> None:
+    fine = np.array([1.0, 3.0, np.nan, 5.0, np.nan, np.nan])
+    row = _row(fine, 3)
+    assert row[:3] == pytest.approx([2.0, 5.0, np.nan], nan_ok=True)
+    assert row.shape == (BINS,)
+    assert np.isnan(row[3:]).all()
+    assert np.isnan(_row(None, 3)).all(), "a test that the model does not predict"
 
 
 def test_contributions_stand_beside_each_other_on_one_scale(writer: Client, lab: Path) -> None:

@@ -53,7 +53,7 @@ class HeatMap:
     """Strips of colour, one a row. values: shape (rows, columns), NaN where nothing was measured. lengths: up to where
     a row goes [columns]: NaN before that is hatched as missing, behind it stands nothing. limit: the colours reach from
     -limit to +limit, and arrows say where values go beyond. targets: the id of the chart that a click on a row opens
-    there, '' for none."""
+    there, '' for none. figures: what stands behind each row, under figures_title."""
 
     about: str
     axis: Axis
@@ -66,6 +66,8 @@ class HeatMap:
     limit: float
     note: str = ""
     targets: Sequence[str] = field(default=())
+    figures: Sequence[str] = ()
+    figures_title: str = ""
 
     def as_json(self, coarse: bool = False) -> dict[str, Any]:
         """The heat map for `ThermoChart`."""
@@ -84,4 +86,6 @@ class HeatMap:
             "limit": self.limit,
             "note": self.note,
             "targets": list(self.targets),
+            "figures": list(self.figures),
+            "figures_title": self.figures_title,
         }

@@ -29,7 +29,9 @@
       const width = Math.max(this.fixed || this.box.clientWidth || 600, 200), ctx = this.canvas.getContext("2d");
       ctx.font = "12px " + T.FONT;
       const names = Math.min(Math.max(...this.spec.rows.map(r => ctx.measureText(r).width), 20) + 10, width * 0.34);
-      return {width: width, left: names, plot: width - names - 12, height: this.spec.rows.length * ROW + FOOT};
+      const texts = this.spec.figures.length ? [...this.spec.figures, this.spec.figures_title] : [];
+      const right = Math.max(0, ...texts.map(t => ctx.measureText(t).width + 10)) + 12;
+      return {width: width, left: names, right: right, plot: width - names - right, height: this.spec.rows.length * ROW + FOOT};
     }
 
     colour(v) {
@@ -54,6 +56,7 @@
         }
         ctx.strokeStyle = T.colour("line"); ctx.lineWidth = r; ctx.strokeRect(z.left * r + 0.5, top + 0.5, Math.max(wide - 1, 1), high - 1);
         T.text(ctx, this._fit(ctx, name, z.left - 10, r), (z.left - 8) * r, top + high / 2, T.colour("ink"), r, 12, "right");
+        if (s.figures.length) T.text(ctx, s.figures[row], (z.width - 2) * r, top + high / 2, T.colour("ink"), r, 12, "right");
       });
       this._axis(ctx, z, r); this._key_of_colours(ctx, z, r);
       if (this.at) {
@@ -78,6 +81,7 @@
       for (let at = Math.ceil(s.start / step) * step; at <= s.start + span + step * 1e-6; at += step) {
         T.text(ctx, T.tick(at), (z.left + (at - s.start) / span * z.plot) * r, y, T.colour("muted"), r, 11, "center");
       }
+      if (s.figures.length) T.text(ctx, s.figures_title, (z.width - 2) * r, y, T.colour("muted"), r, 11, "right");
       T.text(ctx, s.axis.label + " [" + T.unit(s.axis.unit) + "]", (z.left + z.plot / 2) * r, y + 15 * r, T.colour("muted"), r, 11, "center");
     }
 

@@ -184,7 +184,25 @@ def overview_map(parts: Sequence[TestPart], unit: str, limit: float, *, several:
     names = [(p.test if one else f"{p.campaign}/{p.test}") + (f" {p.response}" if several else "") for p in parts]
     step_h = parts[0].step_s * size / 3600  # a model has one step
     about, lengths, targets = "Residual of every test", [len(s) for s in strips], [""] * len(parts)
-    return HeatMap(about, Axis(TIME, "h"), unit, names, z, lengths, 0.0, step_h, limit, targets=targets)
+    return HeatMap(
+        about,
+        Axis(TIME, "h"),
+        unit,
+        names,
+        z,
+        lengths,
+        0.0,
+        step_h,
+        limit,
+        targets=targets,
+        figures=[typeset(number(_rms(p.residual))) for p in parts],
+        figures_title=typeset(f"RMSE [{unit}]"),
+    )
+
+
+def _rms(residual: Float1D) -> float | None:
+    seen = residual[np.isfinite(residual)]
+    return float(np.sqrt(np.mean(seen**2))) if len(seen) else None
 
 
 def height_of(chart: Chart | HeatMap) -> int:

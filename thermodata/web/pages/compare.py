@@ -16,7 +16,6 @@ from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.differences import Course
 from thermodata.plugin import Float1D
 from thermodata.report.collected.lost import lost_of_compared
-from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
@@ -32,6 +31,7 @@ from thermodata.view.lists.response_units import response_units, told_together
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.parts.compare_charts import correlated, maps, over_channel
+from thermodata.web.pages.parts.compare_fits import failed_of, parameters_of
 from thermodata.web.pages.parts.compare_lines import (
     Line,
     largest,
@@ -70,8 +70,8 @@ def show(request: Request) -> Response:
         **_residuals(compared, given),
         **_contributions(compared, desk.store_path, given.get("test", "")),
         **_test_by_test(compared),
-        parameters=_parameters(compared.results),
-        failed=_failed(compared),
+        parameters=parameters_of(compared.results),
+        failed=failed_of(compared.chosen, compared.results),
     )
 
 
@@ -105,6 +105,15 @@ class _Compared:
     @property
     def newest(self) -> ModelRow:
         return self.chosen[-1]
+
+    @property
+    def errors(self) -> dict[str, dict[Key, float]]:
+        """model -> the error of the response in each test."""
+        own = [line for line in self.lines if line.response == self.response]
+        return {
+            m.model: {(line.campaign, line.test): e for line in own if (e := line.errors[i]) is not None}
+            for i, m in enumerate(self.chosen)
+        }
 
     @property
     def together(self) -> Sequence[str]:
@@ -169,7 +178,7 @@ def _residuals(of: _Compared, given: QueryParams) -> dict[str, Any]:
     """Of the one response, over the tests, over a channel and by itself."""
     over, unit = given.get("over", ""), of.units.get(of.response, of.pinned.unit)
     parts = residuals(of.store, of.newest.model, predicted_tests(of.store, of.newest.model), of.response)
-    heat = maps(of.store, of.chosen, test_names(of.predicted, of.campaigns), of.response, unit)
+    heat = maps(of.store, of.chosen, test_names(of.predicted, of.campaigns), of.response, unit, of.errors)
     return {
         "heat": [(m, script_json(chart.as_json())) for m, chart in heat],
         "over": over,
@@ -271,20 +280,6 @@ def _chosen(store: Store, models: list[ModelRow], named: list[str], pin: str) ->
         found = [by_id[found[0].parent], found[0]]
     first = model_in(store, models, pin) if pin else None
     return [first, *(m for m in found if m is not first)] if first else found
-
-
-def _failed(of: _Compared) -> list[tuple[str, list[str]]]:
-    """(label, what its fit says of itself, as a terminal has it) of each model with a check that does not hold."""
-    told = [
-        (m.label, [check_text(c) for c in r.checks if not c.passed]) for m, r in zip(of.chosen, of.results, strict=True)
-    ]
-    return [(label, checks) for label, checks in told if checks]
-
-
-def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
-    """(name, those of the results that have it)."""
-    names = dict.fromkeys(name for result in results for name in result.readable)
-    return [(name, [result if name in result.parameters else None for result in results]) for name in names]
 
 
 def _channels(store: Store, model: ModelRow) -> list[str]:
