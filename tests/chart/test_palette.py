@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.chart import asset, effect_styles
-from thermodata.chart.colour import DASHES, EFFECTS
+from thermodata.chart.colour import DASHES, EFFECTS, SOLID
 from thermodata.schema.flag import Flag
 
 # cone vision that lacks one kind wholly: Machado, Oliveira and Fernandes 2009, doi 10.1109/TVCG.2009.113
@@ -68,11 +68,26 @@ def test_the_two_dark_looks_are_one() -> None:
 
 @pytest.mark.parametrize("vision", VISION)
 @pytest.mark.parametrize("look", LOOKS)
-def test_no_two_effects_lie_near_each_other(look: str, vision: str) -> None:
-    seen = {name: oklab(np.array(VISION[vision]) @ linear(LOOKS[look][name])) for name in EFFECTS}
+@pytest.mark.parametrize("of", [EFFECTS[:SOLID], EFFECTS[SOLID:]])
+def test_no_two_effects_of_one_dash_lie_near_each_other(look: str, vision: str, of: tuple[str, ...]) -> None:
+    nearest, apart = nearest_of([*of], look, vision)
+    assert apart > 0.09, (nearest, apart)
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_twelve_lines_have_colours_that_most_people_tell_apart(look: str) -> None:
+    """None is nearly black either, as the line of what was measured is: a thin line shows no hue then."""
+    nearest, apart = nearest_of([*EFFECTS], look, "all cones")
+    assert apart > 0.13, (nearest, apart)
+    nearest, apart = nearest_of([*EFFECTS, "measured"], look, "all cones")
+    assert apart > 0.11, (nearest, apart)
+
+
+def nearest_of(names: list[str], look: str, vision: str) -> tuple[tuple[str, str], float]:
+    seen = {name: oklab(np.array(VISION[vision]) @ linear(LOOKS[look][name])) for name in names}
     apart = {(a, b): float(np.linalg.norm(seen[a] - seen[b])) for a, b in combinations(seen, 2)}
     nearest = min(apart, key=apart.__getitem__)
-    assert apart[nearest] > 0.09, (nearest, apart[nearest])
+    return nearest, apart[nearest]
 
 
 @pytest.mark.parametrize("look", LOOKS)
@@ -101,6 +116,8 @@ def test_every_flag_has_a_colour() -> None:
 def test_many_lines_are_told_apart_and_keep_their_looks(count: int) -> None:
     styles = effect_styles([f"e{i}" for i in range(count)])
     assert len(set(styles.values())) == count
+    first = [styles[f"e{i}"] for i in range(min(count, len(EFFECTS)))]
+    assert len({colour for colour, _ in first}) == len(first), "a colour is no other's before all are used"
     assert effect_styles(["e0", "e1", "e0"]) == {k: styles[k] for k in ("e0", "e1")}
 
 

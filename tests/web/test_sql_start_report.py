@@ -29,6 +29,18 @@ def test_a_query_gives_rows_a_picture_and_files(reader: Client) -> None:
     assert reader.get(f"/sql/parquet?q={query}").body[:4] == b"PAR1"
 
 
+def test_columns_that_are_not_drawn_are_named_and_so_are_rows_that_are_not_listed(reader: Client) -> None:
+    columns = ", ".join(f"{i} * t_s as c{i:02}" for i in range(1, 15))
+    text = reader.get(f"/sql?q={quote(f'select t_s, {columns} from sample order by t_s')}").text
+    panel = json.loads(re.search(r'id="sqlplot">(.*?)</script>', text)[1])["panels"][0]
+    assert [s["name"] for s in panel["series"]] == [f"c{i:02}" for i in range(1, 13)]
+    assert panel["title"] == "12 columns", "their names stand beside it"
+    assert "can't be told apart: c13, c14." in text
+    assert "take them as a file; the first 500 are listed" in text
+    temperatures = reader.get(f"/sql?q={quote('select t_s, T_hall from wide_small_log')}").text
+    assert "T_hall [°C]" in temperatures
+
+
 def test_rows_have_no_zeros_that_say_nothing_and_a_caret_stands_below_its_word(reader: Client) -> None:
     text = reader.get(
         "/sql?q=" + quote("select 2.0::double as a, 0.1::double + 0.2::double as b, 24::double as c")
@@ -257,11 +269,11 @@ def test_columns_have_their_units_and_those_of_one_unit_an_axis(reader: Client) 
     ).text
     assert "t_s [s]</th>" in text
     assert "dZ [µm]</th>" in text
-    assert "T_bearing [degC]</th>" in text
+    assert "T_bearing [°C]</th>" in text
     chart = json.loads(re.search(r'id="sqlplot">(.*?)</script>', text)[1])
     assert [(p["title"], p["unit"]) for p in chart["panels"]] == [("dZ", "um"), ("T_bearing, T_hall", "degC")]
     text = reader.get("/sql?q=" + quote("select channel, value from temperature limit 5")).text
-    assert "value [degC]</th>" in text
+    assert "value [°C]</th>" in text
 
 
 def test_what_fails_is_answered_with_what_the_command_says(reader: Client) -> None:

@@ -8,8 +8,10 @@ from functools import cache
 
 from thermodata.chart.assets import asset
 
-EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
-"""Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
+EFFECTS = tuple(f"effect-{i}" for i in range(1, 13))
+"""Twelve colours: people who miss one kind of cone tell six of them apart, and the other six."""
+SOLID = 6
+"""So many lines have one dash: two that somebody might take for each other differ in it."""
 MEASURED, MODEL, RESIDUAL = "measured", "model", "residual"
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 DASHES: dict[str, tuple[int, ...]] = {
@@ -28,7 +30,7 @@ DASHES: dict[str, tuple[int, ...]] = {
 def effect_styles(names: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Name -> (colour, dash), in the order of the names: no two of the first 48 are alike."""
     each, dashes = enumerate(dict.fromkeys(names)), list(DASHES)
-    return {name: (EFFECTS[i % len(EFFECTS)], dashes[i // len(EFFECTS) % len(dashes)]) for i, name in each}
+    return {name: (EFFECTS[i % len(EFFECTS)], dashes[i // SOLID % len(dashes)]) for i, name in each}
 
 
 @cache

@@ -63,15 +63,15 @@ def in_units(text: str, units: Mapping[str, str]) -> str:
 
 
 def typeset(text: str) -> str:
-    """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus, and a
-    dash where there is none; but for lines in braces, which are copied into a file."""
+    """A terminal's text as a page shows it: 'um' as 'µm', 'degC' as '°C', '->' as an arrow, hyphens before digits as
+    minus, and a dash where there is none; but for lines in braces, which are copied into a file."""
     if text == "-":
         return "–"
     return "".join(part if i % 2 else _typeset(part) for i, part in enumerate(_TO_COPY.split(text)))
 
 
 def _typeset(text: str) -> str:
-    text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
+    text = re.sub(r"\bdegC\b", "°C", re.sub(r"\bum\b", "µm", text)).replace("->", "→")
     text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)  # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 

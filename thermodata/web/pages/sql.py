@@ -9,7 +9,7 @@ import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
-from thermodata.chart.colour import effect_styles
+from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.pack import script_json
 from thermodata.chart.parts import Axis, Panel, Series
 from thermodata.chart.spec import Chart
@@ -43,7 +43,7 @@ EXAMPLES = (
 _KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 _TAKEN = Limits(seconds=120, rows=5_000_000)
 _WIDE = "wide_"
-_MOST_CURVES, _MOST_QUERY = 6, 20_000
+_MOST_CURVES, _MOST_QUERY = len(EFFECTS), 20_000
 _HEIGHT = 260  # of a panel, as the template knows it
 
 
@@ -76,6 +76,7 @@ def show(request: Request) -> Response:
         x=x,
         plot=script_json(chart.as_json()) if chart else None,
         panels=len(chart.panels) if chart else 0,
+        undrawn=_curves(numbers, x)[_MOST_CURVES:] if chart else [],
         **_beside(store),
         examples=_examples(store),
     )
@@ -121,12 +122,16 @@ def _numbers(table: Table) -> list[str]:
     return list(dict.fromkeys(n for n, kind in table.columns if any(k in kind for k in kinds) and "[" not in kind))
 
 
+def _curves(numbers: list[str], x: str) -> list[str]:
+    return [n for n in numbers if n != x and not n.endswith("__flag")]
+
+
 def _chart(table: Table, x: str, numbers: list[str]) -> Chart:
     names = [n for n, _ in table.columns]
     values = {n: np.array([_float(row[names.index(n)]) for row in table.rows]) for n in numbers}
     order = np.argsort(values[x], kind="stable")
     order = order[np.isfinite(values[x][order])]
-    curves = [n for n in numbers if n != x and not n.endswith("__flag")][:_MOST_CURVES]
+    curves = _curves(numbers, x)[:_MOST_CURVES]
     styles = effect_styles(curves)
     by_unit: dict[str, list[str]] = {}  # micrometres and degrees share no axis
     for name in curves:
@@ -140,7 +145,7 @@ def _chart(table: Table, x: str, numbers: list[str]) -> Chart:
         along,
         [
             Panel(
-                ", ".join(some),
+                ", ".join(some) if len(some) < 3 else f"{len(some)} columns",
                 unit,
                 [Series(n, unit, values[n][order], styles[n][0], dash=styles[n][1], style=style) for n in some],  # type: ignore[arg-type]
                 height=_HEIGHT,
