@@ -102,6 +102,24 @@ def test_nothing_stands_out_of_the_window(opened: Open, width: int, dark: bool) 
     assert (sum(map(int, ground[4:-1].split(","))) < 200) is dark
 
 
+# of each table: the contrast (WCAG 2) of the line below a row with what it lies on
+ROW_LINES = """[...document.querySelectorAll('section table tbody tr:nth-last-child(2) td:first-child')].map(cell => {
+  const light = text => text.match(/[\\d.]+/g).slice(0, 3).map(v => v / 255)
+    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0.05);
+  const own = getComputedStyle(cell), on = getComputedStyle(cell.closest('section'));
+  const [low, high] = [light(own.borderBottomColor), light(on.backgroundColor)].sort((a, b) => a - b);
+  return parseFloat(own.borderBottomWidth) ? high / low : null;
+}).filter(c => c !== null)"""
+
+
+@pytest.mark.parametrize(("dark", "least"), [(False, 1.4), (True, 1.8)])
+def test_rows_of_a_table_are_told_apart(opened: Open, dark: bool, least: float) -> None:
+    seen = opened(dark=dark).js(ROW_LINES)
+    assert seen
+    assert min(seen) > least, seen
+
+
 def test_it_prints_in_light_on_a4_with_every_chart(opened: Open, tmp_path: Path) -> None:
     tab = opened(dark=True)
     tab.js(
