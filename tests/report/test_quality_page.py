@@ -191,3 +191,19 @@ def test_what_ran_while_the_test_did_not_measure_does_not_count_and_is_no_fault(
     assert "12 % of 12\u00a0k samples do not count, all of them while not measuring" in render([idle])
     both = dataclasses.replace(idle, traces=(resting, trace("T_column", bad=slice(30, 60))))
     assert "38 % of 12\u00a0k samples do not count, 12 % while not measuring" in render([both])
+
+
+def test_events_that_are_alike_are_a_row_with_each_below_it(tests: list[TestQuality]) -> None:
+    strokes = tuple(
+        {"channel": "dX", "source": "daq", "flag": "saturated", "from_s": 300.0 * i, "to_s": 300.0 * i + 60, "n": 12,
+         "detail": "the end of its range"}
+        for i in range(109)
+    )  # fmt: skip
+    page = render([dataclasses.replace(tests[1], events=(*tests[1].events, *strokes))])
+    assert "111 events in 3 rows of what is alike" in page
+    row = re.search(r'<tr class="on">(.*?)</tr>', page, re.S)[1]
+    cells = re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)
+    assert cells[1:] == ["dX", "109", "0 s – 9.0 h", "1.8 h", "1.31\u00a0k", "the end of its range"]
+    each = re.findall(r"<li>(.*?) <span", page)
+    assert len(each) == 109, "none is left out"
+    assert each[1] == "0:05:00 to 0:06:00"

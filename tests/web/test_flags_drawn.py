@@ -49,3 +49,23 @@ def test_what_is_drawn_needs_no_word_of_what_is_not(build: Callable[[], Any]) ->
     text, chart = page(build, ("dX", "spike", "5 um beside both neighbours"))
     assert [row["name"] for row in chart["rows"]] == ["dX"]
     assert "only while the test does not measure" not in text
+
+
+def test_stretches_that_are_alike_are_a_row_and_each_is_one_click_away(build: Callable[[], Any]) -> None:
+    b = build()
+    b.test("c", "day", duration_s=float(T_S[-1]))
+    b.channel("c", "day", "dX")
+    b.tidy("c", "day", T_S, {"dX": np.sin(T_S)})
+    for i in range(300):
+        b.add(
+            "quality_event", campaign="c", test="day", source="daq", stream="daq", channel="dX", flag="saturated",
+            from_s=1500.0 + 60 * i, to_s=1530.0 + 60 * i, n=6, detail="the end of its range",
+        )  # fmt: skip
+    text = client_of(b.store().path)[0].get("/test?campaign=c&test=day").text
+    table = re.search(r'<table class="alike">(.*?)</table>', text, re.S)[1]
+    row = re.search(r'<tr class="on">(.*?)</tr>', table, re.S)[1]
+    cells = [re.sub(r"<[^>]+>", "", cell) for cell in re.findall(r"<td[^>]*>(.*?)</td>", row, re.S)]
+    assert cells[:2] == ["dX", "saturated"]
+    assert cells[2:] == ["300", "25 min", "5.4 h", "2.5 h", "1\u202f800", "the end of its range"]
+    assert table.count("<li>") == 300, "none is left out"
+    assert re.search(r'from=1200.0&amp;to=1830.0">0:25:00 to 0:25:30</a> <span class="muted">6 samples', table)

@@ -17,7 +17,7 @@ from thermodata.report.text.clauses import clauses
 from thermodata.report.text.fit import span
 from thermodata.report.verdict.verdict import probability
 from thermodata.report.words.glossary import LEVEL_SENTENCE
-from thermodata.report.words.numbers import base_role, change, duration, number, percent, typeset
+from thermodata.report.words.numbers import base_role, change, clock, duration, number, percent, typeset
 from thermodata.schema.words.sentences import with_count
 from thermodata.version import __version__
 from thermodata.view.lists.models import of_several_campaigns
@@ -53,6 +53,7 @@ def environment() -> jinja2.Environment:
         ends=ends,
         moment=lambda iso: re.sub(r"\.?0*Z$", "", str(iso)).replace("T", " ") + " UTC",
         duration=duration,
+        clock=clock,
         typeset=typeset,
         clauses=clauses,
         probability=probability,

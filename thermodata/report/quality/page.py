@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
@@ -12,15 +13,17 @@ from thermodata.report.page.write import page_values, write_page
 from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, draw_test, span_text
 from thermodata.report.words.causes import Cause, by_cause
-from thermodata.report.words.numbers import duration, typeset
+from thermodata.report.words.numbers import clock, duration, typeset
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
-from thermodata.schema.words.sentences import counted
+from thermodata.schema.words.sentences import counted, with_count
 from thermodata.store.tidy.flags.measured.not_measuring import ONLY
+from thermodata.view.lists.alike import Alike, folded
+from thermodata.view.lists.events import Flagged
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
 
-_MOST_EVENTS = 40
+_MOST_CHANNELS = 3  # that are named of those that are alike
 _WORST_FIRST = [f.word for f in reversed(SEVERITY)]
 _INFORMATION = {f.word for f in Flag if f and not f & INVALID}
 
@@ -144,8 +147,6 @@ def _shown(test: TestQuality, key: str) -> dict[str, Any]:
     flagged = idle + sum(t.flagged for t in test.traces)
     counts = Counter(e["flag"] for e in test.events if not _overruled(e))
     worst = sorted((t for t in test.traces if t.flagged), key=lambda t: -t.flagged)[:3]
-    longest = sorted(test.events, key=lambda e: -((e["to_s"] or 0) - (e["from_s"] or 0)))[:_MOST_EVENTS]
-    longest.sort(key=lambda e: (e["from_s"] or 0, e["channel"] or ""))
     return {
         "idle": f", {'all of them' if idle == flagged else share(idle, samples)} while not measuring" if idle else "",
         "key": key,
@@ -158,7 +159,41 @@ def _shown(test: TestQuality, key: str) -> dict[str, Any]:
         "losses": [_counted(c) for c in by_cause(test.losses, str)],
         "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
         "total": len(test.events),
-        "events": [
-            {**e, "when": span_text(e["from_s"], e["to_s"]), "detail": typeset(e["detail"] or "")} for e in longest
-        ],
+        "events": [_alike(a) for a in folded(map(_flagged, test.events))],
     }
+
+
+def _flagged(event: Mapping[str, Any]) -> Flagged:
+    """An event that is of the whole test begins and ends nowhere: NaN."""
+    from_s, to_s = event["from_s"], event["to_s"]
+    start = float("nan") if from_s is None else from_s
+    return Flagged(
+        event["channel"] or "",
+        event["source"] or "",
+        event["flag"],
+        start,
+        start if to_s is None else to_s,
+        event["n"] or 0,
+        event["detail"] or "",
+    )
+
+
+def _alike(one: Alike) -> dict[str, Any]:
+    """A row of the table: what is alike, and each stretch of it where there are several."""
+    several = len(one.stretches) > 1
+    each = [(_when(s), s.n, typeset(s.detail)) for s in one.stretches] if several else []
+    return {
+        "flag": one.flag,
+        "channel": with_count(one.channels, _MOST_CHANNELS) or f"all of {one.source or 'the test'}",
+        "when": span_text(*(None if math.isnan(at) else at for at in (one.from_s, one.to_s))),
+        "stretches": len(one.stretches),
+        "total": duration(one.total_s),
+        "n": count(one.n) if one.n else "-",
+        "detail": typeset(one.details[0]) if one.details else "-",
+        "reasons": len(one.details),
+        "each": each,
+    }
+
+
+def _when(one: Flagged) -> str:
+    return "the whole test" if math.isnan(one.from_s) else f"{clock(one.from_s)} to {clock(one.to_s)}"

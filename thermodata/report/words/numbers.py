@@ -102,6 +102,13 @@ def duration(seconds: float | None) -> str:
     return f"{seconds / 60:.0f} min" if abs(seconds) >= 120 else f"{seconds:.3g} s"
 
 
+def clock(seconds: float) -> str:
+    """'0:25:00', hours, minutes and seconds from the start of a test: stretches of minutes are told apart by it."""
+    whole = round(seconds)
+    sign, whole = ("-" if whole < 0 else "", abs(whole))
+    return f"{sign}{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}"
+
+
 def change(before: float | None, after: float | None) -> str:
     """'-62 %', '0 %' for less than half of one; '-' where either is missing. A fall to under 1 % has two digits of what
     is left: '-99.54 %'; a rise to MANY_TIMES and more is told as times: 'x 229'."""

@@ -20,6 +20,7 @@ from thermodata.store import Store
 from thermodata.view.curves.predictions import Prediction, predictions, range_figures
 from thermodata.view.curves.rule_for import rules_for
 from thermodata.view.curves.window import Channel, Window, channels_of, read_window
+from thermodata.view.lists.alike import folded
 from thermodata.view.lists.driven import effects_driven
 from thermodata.view.lists.events import About, about_test
 from thermodata.view.lists.models import ModelRow, model_rows, read_by, role_in_model, term_order
@@ -56,6 +57,7 @@ def show(request: Request) -> Response:
         section="/",
         command=command(desk.store_path, "trace", campaign, test),
         about=about,
+        alike=folded(about.flagged),
         channels=channels,
         drawn=_drawn(chart, moving) or given.get("show", ""),
         chosen={c.name for c in chosen},
