@@ -233,7 +233,7 @@ def test_many_that_it_cannot_be_told_from_are_folded_and_all_of_them_there(
 
 def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: ReportData) -> None:
     left = {what: note for what, _, note in what_is_left(data)}
-    assert "between neighbouring means of 30 s" in left["noise"]
+    assert "how far a mean of 30 s scatters about its course by chance" in left["noise"]
     figures = {what: float(figure) for what, figure, _ in what_is_left(data)}
     assert figures["of it, in means of 30 min"] < figures["left over in all open tests"]
     limits = part_chart(data.tests[0], [], {}, 0.7, "um", 1200).panels[1].limits  # type: ignore[union-attr]

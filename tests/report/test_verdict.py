@@ -16,9 +16,10 @@ from thermodata.report.page.headline import error_sentence, headline, sentences
 from thermodata.report.page.page import render
 from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.explainable import explainable
 from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.refined import named
-from thermodata.report.verdict.verdict import explainable, probability, told, verdict_sentence
+from thermodata.report.verdict.verdict import probability, told, verdict_sentence
 from thermodata.schema.agreed.limits import CLAIMS_ASK
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
@@ -640,6 +641,21 @@ def test_what_a_candidate_could_take_away_is_no_promise() -> None:
     assert explainable(found("effect", [claim("sun")], explainable=0.996)) == (
         "the best candidate alone takes away over 99 % of the squared residual"
     )
+    other = found("effect", [claim("sun")], explainable=0.76, explainable_by="lag:T_x")
+    assert explainable(other).endswith("76 % of the squared residual, which by itself names no cause")
+
+
+def test_below_several_claims_stands_what_all_take_away_beside_the_best_one_alone() -> None:
+    two = {"rmse_um": 8.0, "named_rmse_um": 4.0, "explainable": 0.71}
+    assert explainable(found("effect", [claim("sun"), claim("oil")], explainable_by="lag:T_table", **two)) == (
+        "both together take away 75 % of the squared residual, the best candidate alone, lag:T_table, 71 %, which by "
+        "itself names no cause"
+    )
+    own = claim("sun")
+    assert explainable(found("effect", [own, claim("oil")], explainable_by=own.id, **two)).endswith(
+        f"alone, {own.id}, 71 %, one of them"
+    )
+    assert explainable(found("effect", [claim(n) for n in "abc"], **two)).startswith("all 3 together take away 75 %")
 
 
 def test_evidence_is_told_of_all_claims_and_refinements_else_of_the_first() -> None:

@@ -167,6 +167,22 @@ def test_several_claims_have_a_line_each_below_a_short_head_and_all_but_the_firs
     assert ["Where it acts, and why" in card for card in cards] == [False, True]
 
 
+def test_noise_is_told_by_what_it_does_and_one_alone_beside_what_all_take_away(lab: Path) -> None:
+    store, model, found = diagnosed(lab)
+    one = next(c for c in found.candidates if c.claimed)
+    other = one.model_copy(update={"id": "coolant:coolant_on", "effect": "coolant", "rank": 2})
+    more = {"noise_um": 0.05, "noise_over_s": 60.0, "rmse_um": 8.0, "named_rmse_um": 4.0}
+    alone = {"explainable": 0.7, "explainable_by": "lag:T_hall"}
+    save_diagnosis(store, model, found.model_copy(update={"candidates": [one, other], **more, **alone}))
+    text = html.unescape(client_of(lab)[0].get("/missing").text)
+    assert (
+        "Noise 0.0500\N{NO-BREAK SPACE}µm: how far a mean of 60 s scatters about its course by chance, which no model takes away"
+        in text
+    )
+    assert "both together take away 75\N{NO-BREAK SPACE}% of the squared residual, the best candidate alone" in text
+    assert "lag:T_hall, 70\N{NO-BREAK SPACE}%, which by itself names no cause" in text
+
+
 def test_what_is_added_together_is_told_one_by_one(lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     model = store.connect().execute("select model from model").fetchone()[0]

@@ -10,10 +10,11 @@ from thermodata.report.text.fit import spots_text
 from thermodata.report.text.parameters import parameters_text
 from thermodata.report.verdict.candidate_errors import left_out_tests
 from thermodata.report.verdict.could_hide import could_hide
+from thermodata.report.verdict.explainable import explainable
 from thermodata.report.verdict.left_over import in_parts, noise_words
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import to_add
-from thermodata.report.verdict.verdict import explainable, told, verdict_sentence
+from thermodata.report.verdict.verdict import told, verdict_sentence
 from thermodata.report.words.glossary import PARTS, explained
 from thermodata.report.words.numbers import duration, heat_lines, number
 from thermodata.report.words.of_response import of_response

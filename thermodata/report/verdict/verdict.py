@@ -281,12 +281,3 @@ def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
     left = found.rmse_um
     far = locked is not None and left is not None and locked >= FAR * left
     return f"{number(locked)} um" if far and locked is not None else ""
-
-
-def explainable(found: Diagnosis) -> str:
-    """What the best single candidate takes away, which is no claim; '' where nothing is known of it."""
-    if not found.explainable:
-        return ""
-    which = f", {found.explainable_by}," if found.explainable_by else ""
-    said = f"the best candidate alone{which} takes away {percent(found.explainable)} of the squared residual"
-    return said if claims_of(found) else f"{said}, which by itself names no cause"

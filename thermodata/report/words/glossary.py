@@ -33,7 +33,10 @@ HOW = (
     "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once. "
     f"{LEVEL_SENTENCE}"
 )
-NOISE = "between neighbouring means of {length}; an error that keeps its sign for longer is no noise"
+NOISE = (
+    "how far a mean of {length} scatters about its course by chance, which no model takes away; an error that keeps "
+    "its sign for longer is no noise"
+)
 
 
 def explained(*words: str) -> str:

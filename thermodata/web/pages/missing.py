@@ -19,10 +19,12 @@ from thermodata.report.text.clauses import clauses
 from thermodata.report.text.confirmed import confirmed_sentence, held_in_words
 from thermodata.report.verdict.candidate_errors import beside, left_out_tests
 from thermodata.report.verdict.could_hide import could_hide
+from thermodata.report.verdict.explainable import explainable
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.refined import against_adding
-from thermodata.report.verdict.verdict import causes, claims_of, explainable, probability, told, verdict_sentence
-from thermodata.report.words.numbers import heat_lines, in_unit, number
+from thermodata.report.verdict.verdict import causes, claims_of, probability, told, verdict_sentence
+from thermodata.report.words.glossary import NOISE
+from thermodata.report.words.numbers import duration, heat_lines, in_unit, number
 from thermodata.report.words.of_response import of_response, worst_of
 from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
@@ -131,6 +133,7 @@ def _answer(store: Store, found: Diagnosis, model: ModelRow, unit: str, *, acts:
         "by_choice": {name: in_unit(confirmed_sentence(answer), unit) for name, answer in by_choice.items()},
         "held": {name: held_in_words(answer) for name, answer in by_choice.items()},
         "about": _about(found, model, unit),
+        "noise": _noise(found, unit),
         "of_response": capital(of_response(found)),
         "told": shown,
         "hides": in_unit(capital(could_hide(found)), unit),
@@ -211,8 +214,15 @@ def _headline(found: Diagnosis) -> tuple[str, list[str]]:
 
 def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
     parts = [f"{model.label} leaves {number(found.rmse_um)} {unit} on left-out tests"] if found.rmse_um else []
-    parts += [f"short-term noise {number(found.noise_um)} {unit}"] if found.noise_um else []
     return "; ".join(filter(None, [*parts, explainable(found)]))
+
+
+def _noise(found: Diagnosis, unit: str) -> str:
+    """'Noise 0.05 um: how far a mean of 60 s scatters ...'; '' where none is known."""
+    if not found.noise_um:
+        return ""
+    length = duration(found.noise_over_s) if found.noise_over_s else "a few samples"
+    return f"Noise {number(found.noise_um)} {unit}: {NOISE.format(length=length)}"
 
 
 def _locks(store: Store, model: ModelRow) -> dict[str, Any]:
