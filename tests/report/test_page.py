@@ -125,6 +125,10 @@ def test_verification_tests_that_helped_to_choose_are_no_test_any_more(data: Rep
     assert headline_error(rows) == rows[0], "what helped to choose effects was fitted with more than what fitted them"
     said = error_sentence(dataclasses.replace(data, scores=scores, reason=None))
     assert said.startswith("The error on verification tests, which are fitted too by now, falls: ")
+    page = body(render(dataclasses.replace(data, scores=scores, reason=None)))
+    assert '<td class="name">verification, fitted too</td>' in page
+    assert '<span class="badge">verification, fitted too</span>' in page, "in no colour of a verification"
+    assert "verification, fitted too" not in body(render(data))
 
 
 def test_verification_tests_are_said_to_be_fitted_for_what_they_were(data: ReportData) -> None:

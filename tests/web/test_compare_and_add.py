@@ -17,7 +17,7 @@ from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.remove import remove
-from thermodata.modelling.run import fit
+from thermodata.modelling.run import fit, transfer
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
@@ -67,6 +67,8 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert [m.version for m in model_rows(store)] == [2, 1]
     added = find_model(store, model_rows(store)[0].model).result
     assert "verification (in-sample)" in {s.role for s in added.scores}  # as the offer said
+    carried = {row.test: row.role for row in transfer(store, added.model)}
+    assert carried["day1"] == "verification (in-sample)", "nor is it a test of how the model carries over"
     text = writer.get(onward).text
     limits = [json.loads(m)["limit"] for m in re.findall(r'id="heat\d">(.*?)</script>', text)]
     assert len(limits) == 2
@@ -86,38 +88,39 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     # day1 was kept out of the first version's fit, and helped to choose the effect of the second
     rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", text)]
     cells = {re.sub("<[^>]+>", "", row[0]): row[2:4] for row in rows if len(row) > 4 and "/test?" in row[0]}
-    assert {test: ["in-sample" in cell for cell in each] for test, each in cells.items()} == {
+    assert {test: ["fitted too" in cell for cell in each] for test, each in cells.items()} == {
         "heat1": [False, False],
         "heat2": [False, False],
         "day1": [False, True],
     }
-    assert re.search(r"verification [\d.]+ → [\d.]+ µm \(in-sample\) ", text)
-    assert f"in-sample: {IN_SAMPLE}" in html.unescape(text)
+    assert re.search(r"verification [\d.]+ → [\d.]+ µm \(fitted too\) ", text)
+    assert f"Fitted too (in-sample): {IN_SAMPLE}" in html.unescape(text)
     # what the fit to more tests does is no merit of what was added
     assert text.count("Fitted to the same tests, the version before leaves") == 1
-    day1 = next(row for row in re.findall(r"<tr>(.*?)</tr>", text) if "test=day1" in row and "in-sample" in row)
+    day1 = next(row for row in re.findall(r"<tr>(.*?)</tr>", text) if "test=day1" in row and "fitted too" in row)
+    assert '<span class="badge">verification, fitted too</span>' in day1, "in no colour of a verification"
     assert not re.search('class="(good|bad)"', day1)
     assert "In neither: tests to which one model was fitted and the other was not" in text
     assert re.search(
-        r"in verification \(in-sample\)</p>", writer.get(f"/missing?model={model_rows(store)[0].model}").text
+        r"in verification \(fitted too\)</p>", writer.get(f"/missing?model={model_rows(store)[0].model}").text
     )
     # and so say the list of tests and the page of the test
     newest = model_rows(store)[0].model
     listed = re.findall(
         r"<tr>\s*<td class=\"name\"><a[^>]*>(\w+)</a></td>\s*<td data-th=\"role\">(.*?)</td>", writer.get("/").text
     )
-    assert {test: "in-sample" in role for test, role in listed if test != "day2"} == {
+    assert {test: "verification, fitted too" in role for test, role in listed if test != "day2"} == {
         "heat1": False,
         "heat2": False,
         "day1": True,
     }
-    assert f"in-sample: {IN_SAMPLE}" in html.unescape(writer.get("/").text)
+    assert f"Fitted too (in-sample): {IN_SAMPLE}" in html.unescape(writer.get("/").text)
     for model, said in ((newest, True), (first.model, False)):
         page = writer.get(f"/test?campaign=small&test=day1&model={model}").text
-        assert ("in-sample" in page) == said
+        assert ("verification, fitted too" in page) == said
         assert f"compare {model}" in html.unescape(writer.get(f"/?model={model}").text)
     # going back only leaves it: both versions are there, until the first is fitted again, as the page says
-    assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
+    assert "fitted too" not in writer.get(f"/compare?model={first.model}").text
     assert f"compare {newest}" in html.unescape(writer.get("/").text)
     assert main(["--store", str(lab / "thermodata.store"), "fit", first.model, "--json"]) == 0
     assert f"compare {first.model}" in html.unescape(writer.get("/").text)

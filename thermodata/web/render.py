@@ -16,7 +16,7 @@ from starlette.responses import HTMLResponse
 from thermodata.report.text.clauses import clauses
 from thermodata.report.text.fit import span
 from thermodata.report.verdict.verdict import probability
-from thermodata.report.words.glossary import LEVEL_SENTENCE
+from thermodata.report.words.glossary import FITTED_TOO, LEVEL_SENTENCE
 from thermodata.report.words.numbers import base_role, change, clock, duration, number, percent, typeset
 from thermodata.schema.words.sentences import with_count
 from thermodata.version import __version__
@@ -65,7 +65,7 @@ def environment() -> jinja2.Environment:
         plain=lambda text: str(text).replace("_", " "),
         grouped=lambda n: f"{n:,}".replace(",", "\u202f"),
     )
-    made.globals.update(link=link, version=__version__, change=change, level=LEVEL_SENTENCE)
+    made.globals.update(link=link, version=__version__, change=change, level=LEVEL_SENTENCE, fitted_too=FITTED_TOO)
     return made
 
 

@@ -17,7 +17,6 @@ from thermodata.report.text.fit import (
     history_text,
     spots_text,
 )
-from thermodata.report.text.table import table
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -181,38 +180,15 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...], ca
     """
     from thermodata.modelling.compare.elsewhere import other_campaigns
     from thermodata.modelling.comparing import transfer
+    from thermodata.report.text.portability import portability_text
     from thermodata.store.catalogue.models.fits import find_model
 
     store = session.store()
     found = resolve(store, model)
     rows = [plain(row) for row in transfer(store, found, tests, campaigns)]
     names = list(dict.fromkeys(str(row["response"]) for row in rows))
-    several = len(names) > 1
-
-    def text() -> str:
-        shown = [{**row, "verdict": "not asked" if row["verdict"] == "x" else row["verdict"]} for row in rows]
-        told = table(
-            shown,
-            [
-                ("campaign", "campaign"),
-                ("test", "test"),
-                *([("response", "response")] if several else []),
-                ("machine", "machine"),
-                ("role", "role"),
-                ("g", "g"),
-                ("g_end", "g at end of heating"),
-                ("fit_n", "FIT n [%]"),
-                ("fit_c", "FIT c [%]"),
-                ("ptp_measured", "PTP measured [um]"),
-                ("ptp_n", "PTP n [um]"),
-                ("ptp_c", "PTP c [um]"),
-                ("verdict", "class"),
-                ("why", "not asked, for"),
-            ],
-        )
-        return in_units_of(session, names, told)
-
-    session.answer(rows, text)
-    others = other_campaigns(store, find_model(store, found).spec.campaign_ids)
+    own = find_model(store, found).spec.campaign_ids
+    session.answer(rows, lambda: in_units_of(session, names, portability_text(rows, own)))
+    others = other_campaigns(store, own)
     if others and not tests and not campaigns:
         session.say(f"in the store too: {', '.join(others)}; ask with --campaign {others[0]}")

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.modelling.inputs.phases import phases
-from thermodata.modelling.predictions.score import fit_percent, peak_sum
+from thermodata.modelling.predictions.score import fit_percent, peak_sum, role_of
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, has_response
 from thermodata.plugin import Bool1D, Float1D
@@ -24,8 +24,9 @@ class Portability:
     """One test. g: least squares through the zero of the first samples, as the FITs are taken, so that it never makes
     them worse; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
     unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain. verdict "x"
-    where it can't be predicted, for a sensor is missing on that machine: `why` says which. role: in the model; of a
-    test of another campaign, which took no part in it, as that campaign has it."""
+    where it can't be predicted, for a sensor is missing on that machine: `why` says which. role: in the model, such as
+    'verification (in-sample)' where it was fitted too; of a test of another campaign, which took no part in it, as
+    that campaign has it."""
 
     campaign: str
     test: str
@@ -51,7 +52,7 @@ def portability(fitted: FittedModel, data: Dataset) -> list[Portability]:
     rows: list[Portability] = []
     for test in data.tests:
         own = test.campaign in fitted.spec.campaign_ids
-        role = fitted.roles.role(test.key) if own else test.role
+        role = role_of(fitted, test) if own else test.role
         if role == "locked":
             continue
         for response in fitted.responses:

@@ -25,7 +25,7 @@ from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.log_faults import log_faults
 from thermodata.report.verdict.verdict import probability, told, verdict_sentence
-from thermodata.report.words.glossary import HOW
+from thermodata.report.words.glossary import FITTED_TOO, HOW
 from thermodata.report.words.numbers import (
     base_role,
     change,
@@ -103,6 +103,7 @@ _ASKED_BY_THE_PAGE: dict[str, Any] = {
     "told": told,
     "beside": beside,
     "how": HOW,
+    "fitted_too": FITTED_TOO,
 }
 
 

@@ -18,6 +18,8 @@ ERRORS = {
 }
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 
+FITTED_TOO = "fitted too"
+"""Beside a verification test that is none any more; in data and commands its role is 'verification (in-sample)'."""
 IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too, or hold samples of a fitted test"
 SEEN_SINCE = "beside a version that was not fitted to them, part of the change is that they are fitted now"
 PARTS = f"parts of the open tests in turn, {_FROM_THE_OTHERS}"
