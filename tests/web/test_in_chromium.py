@@ -202,6 +202,45 @@ def test_pages_print_without_overlaps(read: Served, tmp_path: Path) -> None:
     assert read.page.complaints() == []
 
 
+# texts whose contrast with what they lie on (WCAG 2, fading included) is under 4.5
+PALE = """(() => {
+  const numbers = text => text.match(/[\\d.]+/g).map(Number);
+  const light = c => c.slice(0, 3).map(v => v / 255).map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0.05);
+  const over = (top, share, below) => top.slice(0, 3).map((v, i) => v * share + below[i] * (1 - share));
+  const ground = e => {
+    const layers = [];
+    for (; e; e = e.parentElement) {
+      const c = numbers(getComputedStyle(e).backgroundColor), share = c.length > 3 ? c[3] : 1;
+      if (share) layers.push([c, share]);
+      if (share === 1) break;
+    }
+    return layers.reverse().reduce((below, [c, share]) => over(c, share, below), [255, 255, 255]);
+  };
+  const found = new Set(), walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walk.nextNode()) {
+    const own = walk.currentNode.parentElement, text = walk.currentNode.textContent.trim();
+    if (!text || !own.checkVisibility() || own.closest('svg, script, option, .skip, [disabled]')) continue;
+    let share = 1;
+    for (let e = own; e; e = e.parentElement) share *= Number(getComputedStyle(e).opacity);
+    const below = ground(own), ink = over(numbers(getComputedStyle(own).color), share, below);
+    const [low, high] = [light(ink), light(below)].sort((a, b) => a - b);
+    if (high / low < 4.5) found.add(`${own.tagName} ${own.className}: ${text.slice(0, 30)} ${(high / low).toFixed(1)}`);
+  }
+  return [...found];
+})()"""
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_every_text_stands_out_of_what_it_lies_on(read: Served, dark: bool) -> None:
+    read.page.look(1280, 900, dark)
+    for path in PAGES:
+        read.go(path)
+        read.page.js("document.querySelectorAll('details').forEach(d => { d.open = true; })")
+        read.page.js("document.querySelectorAll('table.bars tbody tr').forEach(row => row.classList.add('rests'))")
+        assert read.page.js(PALE) == [], path
+
+
 def test_the_search_for_overlaps_finds_one(chromium: Chromium) -> None:
     page = chromium.open("data:text/html,<p>one</p><p style='margin-top:-1.7em'>two</p><p>three</p>")
     try:

@@ -20,6 +20,7 @@ from thermodata.store import Store
 from thermodata.store.catalogue.models.findings import load_diagnosis
 from thermodata.store.catalogue.models.fits import StoredModel, find_model
 from thermodata.view.grid.describe import channel_infos
+from thermodata.view.lists.models import model_rows
 from thermodata.view.lists.response_units import unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.parts.drawn import pair
@@ -58,6 +59,7 @@ def show(request: Request) -> Response:
         section="/missing",
         command=command(desk.store_path, "add", model.model, *names),
         model=model,
+        label=next(m.label for m in model_rows(store) if m.model == model.model),
         name=name,
         chosen=chosen,
         left_out_of=left_out_tests([c.candidate for c in chosen if c.candidate]),
