@@ -19,7 +19,7 @@ from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.explainable import explainable
 from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.refined import named
-from thermodata.report.verdict.verdict import probability, told, verdict_sentence
+from thermodata.report.verdict.verdict import causes, probability, told, verdict_sentence
 from thermodata.schema.agreed.limits import CLAIMS_ASK
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn, WeakSpot
@@ -673,6 +673,15 @@ def test_what_leaves_far_less_than_the_claim_is_told_too(after: float, also: boo
     assert told(found("effect", [claim("a"), rival])) == [claim("a"), *[rival] * also]
     assert told(found("effect", [claim("a", equivalent=["rival:T"]), rival])) == [claim("a", equivalent=["rival:T"])]
     assert told(found("unknown", [one("a"), rival])) == [one("a")]
+
+
+def test_a_headline_of_several_long_claims_counts_them_and_each_has_a_line(blind: ReportData) -> None:
+    twin = "feed_motor:a_motor_with_a_name_of_some_length"
+    long = [claim(n).model_copy(update={"equivalent": [twin]}) for n in ("screw", "sun")]
+    page = dataclasses.replace(blind, diagnosis=found("effect", long))
+    assert headline(page) == "dZ misses 2 effects"
+    assert sentences(page)[:2] == [f"{causes([c])}." for c in long]
+    assert render(page).count('<p class="first">') == 2, "both as large"
 
 
 def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows, headline_error
@@ -12,10 +14,11 @@ from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentenc
 from thermodata.report.words.numbers import change, in_unit, number
 from thermodata.report.words.of_response import of_response
 from thermodata.schema.agreed.begins_on import IF_SO
+from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.sentences import listed
 
-_MOST_NAMED = 2  # claims: of three the names, twins and probabilities fill five lines, and stand below one by one
+_MOST_NAMED, _LONG = 2, 150  # claims, and letters: with names, twins and probabilities these fill five lines
 
 
 def headline(data: ReportData) -> str:
@@ -24,7 +27,7 @@ def headline(data: ReportData) -> str:
     if data.added:
         if claims:
             response = data.reason.response if data.reason else responses
-            if len(claims) > _MOST_NAMED:
+            if _one_by_one(claims):
                 return f"Missing in {response} were {len(claims)} effects"
             return f"Missing in {response} was {causes(claims)}"
         if data.offered:
@@ -37,10 +40,21 @@ def headline(data: ReportData) -> str:
     if data.diagnosis:
         claims = claims_of(data.diagnosis)
         if claims:
-            what = causes(claims) if len(claims) <= _MOST_NAMED else f"{len(claims)} effects"
+            what = f"{len(claims)} effects" if _one_by_one(claims) else causes(claims)
             return f"{data.diagnosis.response} misses {what}"
         return capital(clauses(_verdict(data, data.diagnosis))[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
+
+
+def claim_lines(data: ReportData) -> list[str]:
+    """A line for each claim that the headline only counts; none where it names them."""
+    told = added_claims(data) if data.added else claims_of(data.diagnosis) if data.diagnosis else []
+    return [causes([claim]) for claim in told] if _one_by_one(told) else []
+
+
+def _one_by_one(claims: Sequence[Candidate]) -> bool:
+    """Whether each has a line below the headline, which counts them."""
+    return len(claims) > _MOST_NAMED or (len(claims) > 1 and len(causes(claims)) > _LONG)
 
 
 def error_sentence(data: ReportData) -> str:
@@ -86,9 +100,7 @@ def sentences(data: ReportData) -> list[str]:
     lines += [f"Asked by choice, {confirmed_sentence(asked)}" for asked in data.by_choice]
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
-    told = claims if data.added else claims_of(data.diagnosis) if data.diagnosis else []
-    if len(told) > _MOST_NAMED:
-        lines[:0] = [causes([claim]) for claim in told]
+    lines[:0] = claim_lines(data)
     if claims and data.reason and not data.diagnosis:
         lines.append(capital(of_response(data.reason)))
     for claim in claims:

@@ -15,7 +15,7 @@ from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_of_versions
 from thermodata.report.page.drawn import chart_of, figures_of, heat_of, ranked_spots, response_of
 from thermodata.report.page.error_rows import error_rows, headline_error
-from thermodata.report.page.headline import capital, headline, sentences
+from thermodata.report.page.headline import capital, claim_lines, headline, sentences
 from thermodata.report.page.left_over import what_is_left
 from thermodata.report.page.rows_of_tests import score_rows, test_row
 from thermodata.report.page.write import page_values, write_page
@@ -112,6 +112,7 @@ def _summary(data: ReportData) -> dict[str, Any]:
     errors = error_rows(data)
     return {
         "headline": typeset(headline(data)),
+        "first": max(1, len(claim_lines(data))),
         "sentences": [typeset(line) for line in sentences(data)],
         "errors": errors,
         "head": headline_error(errors),
