@@ -252,3 +252,19 @@ def test_a_table_of_errors_says_from_where_they_count(reader: Client, page: str)
 )
 def test_an_interval_has_as_many_decimals_as_its_width(low: float, high: float, told: str) -> None:
     assert ends(low, high) == told
+
+
+def test_the_calibrations_stand_below_the_tests_with_what_fails(lab: Path) -> None:
+    store, checks = Store(lab / "thermodata.store"), [{"name": "linear", "passed": False, "advice": "move it again"}]
+    with store.write() as con:
+        con.execute("delete from calibration")
+        con.execute(
+            "insert into calibration by name select 'small' as campaign, 'jump_Z' as calibration, 'jump' as kind, "
+            "'Z' as axis, 33.27 as gain, 'um/V' as gain_unit, -361.8 as offset_value, 0.22 as uncertainty_pct, "
+            f"0.19 as noise_um, '{json.dumps(checks)}' as checks"
+        )
+    text = html.unescape(client_of(lab)[0].get("/").text)
+    card = re.search(r'<details class="card" id="calibrations">(.*?)</details>', text, re.S)[1]
+    assert "<summary>1 calibration: 1 with a check that does not hold</summary>" in card
+    assert '<td class="name">jump_Z</td><td class="n">33.27 µm/V</td><td class="n">0.22</td>' in card
+    assert "linear: move it again" in card

@@ -15,6 +15,7 @@ from thermodata.view.lists.models import ModelRow, fitted_last_of_each, model_ro
 from thermodata.view.lists.overview import Sort, WantedTests, find_tests
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
+from thermodata.web.pages.parts.calibrations import calibrations, failing
 from thermodata.web.pages.parts.strip import FULL_COLOUR, strip_svg
 from thermodata.web.query import number_in
 from thermodata.web.render import desk_of, page
@@ -51,6 +52,7 @@ def show(request: Request) -> Response:
     chosen = shown[0] if len(shown) == 1 else None
     strips = _strips(store, of, [(r.campaign, r.test) for r in found.rows])
     limits = _limits(strips, of)
+    measured = calibrations(store, [*found.campaigns])
     return page(
         request,
         "campaign_map.html.j2",
@@ -65,6 +67,8 @@ def show(request: Request) -> Response:
         chosen=chosen,
         # the other pages go on with what was asked for here
         onward=chosen.model if chosen and (named or campaign) else "",
+        calibrations=measured,
+        failing=failing(measured),
         strips={key: strip_svg(values, limits[of[key[0]].unit]) for key, values in strips.items()},
         limits=limits,
         units=list(dict.fromkeys(m.unit for m in shown)),
