@@ -15,9 +15,10 @@ import pytest
 
 from thermodata.cli import main
 from thermodata.errors import UsageError
+from thermodata.modelling.comparing import transfer
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.remove import remove
-from thermodata.modelling.run import fit, transfer
+from thermodata.modelling.run import fit
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.text.fit import check_text
 from thermodata.report.words.glossary import IN_SAMPLE
