@@ -72,7 +72,11 @@ def at_once(a_start: int | None, a: Sample, b_start: int | None, b: Sample) -> b
     if a_start is None or b_start is None:
         ended = a.whole and b.whole and a.last_ns is not None and a.last_ns == b.last_ns and a.first_ns == b.first_ns
         return ended and max(a.rows, b.rows) >= _RATES_APART * min(a.rows, b.rows)
-    a_end = max(a.last_ns or 0, a_start + _TOGETHER_NS)
-    b_end = max(b.last_ns or 0, b_start + _TOGETHER_NS)
-    both = min(a_end, b_end) - max(a_start, b_start)
-    return both >= 0.5 * min(a_end - a_start, b_end - b_start)
+    return spans_at_once((a_start, a.last_ns or 0), (b_start, b.last_ns or 0))
+
+
+def spans_at_once(a: tuple[int, int], b: tuple[int, int]) -> bool:
+    """Whether half of the shorter of two recordings ran while the other did. a, b: first and last time [ns]."""
+    a_end, b_end = (max(last, first + _TOGETHER_NS) for first, last in (a, b))
+    both = min(a_end, b_end) - max(a[0], b[0])
+    return both >= 0.5 * min(a_end - a[0], b_end - b[0])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 from thermodata.draft.files.described_file import merged
 from thermodata.draft.files.file_question import FileQuestion
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.into_sources.loggers import loggers
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.files.rotated import unrotated
@@ -153,29 +153,13 @@ def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
     )
 
 
-def _loggers(cluster: list[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
-    """A cluster apart by a word of the names where two loggers of the same make ran at once (daq1_x, daq2_x)."""
-    logs = [f for f in cluster if f not in jumps]
-    name_parts = {f.path: re.split(r"[_\-. /]+", str(f.path.with_suffix(""))) for f in logs}
-    if len(logs) < 4 or len({len(p) for p in name_parts.values()}) != 1 or any(f.start_ns is None for f in logs):
-        return [cluster]
-    for place in range(len(name_parts[logs[0].path])):
-        values = Counter(name_parts[f.path][place] for f in logs)
-        rest = Counter(_but(name_parts[f.path], place) for f in logs)
-        if 2 <= len(values) <= 4 and set(rest.values()) == {len(values)} and len(set(values.values())) == 1:
-            together = all(
-                max(s) - min(s) < 10_000_000_000
-                for s in ([f.start_ns or 0 for f in logs if _but(name_parts[f.path], place) == key] for key in rest)
-            )
-            if together:
-                found = [[f for f in logs if name_parts[f.path][place] == value] for value in sorted(values)]
-                found[0] += [f for f in cluster if f in jumps]
-                return found
-    return [cluster]
-
-
-def _but(parts: Sequence[str], place: int) -> tuple[str, ...]:
-    return tuple(x for i, x in enumerate(parts) if i != place)
+def _loggers(cluster: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
+    """A cluster, its loggers apart; jump tests with the one that writes where they lie, or else the first."""
+    found = loggers([f for f in cluster if f not in jumps])
+    for jump in (f for f in cluster if f in jumps):
+        home = next((own for own in found if jump.path.parent in {f.path.parent for f in own}), found[0])
+        home.append(jump)
+    return found
 
 
 def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], taken: set[str]) -> str:
