@@ -56,7 +56,7 @@ def calibrate(
     readings = values
     for calibration in calibrations:
         _same_axis(channel, calibration, where)
-        values, unit = _applied(values, unit, calibration, where)
+        values, unit = _applied(values, unit, calibration, channel, where)
     values = _canonical(values, unit, channel, bool(calibrations), where)
     flags = np.zeros(len(values), dtype=np.uint16)
     if channel.sensor is not None and channel.sensor.range is not None:
@@ -131,7 +131,9 @@ def reading_unit(
     )
 
 
-def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: str | None) -> tuple[Float1D, str]:
+def _applied(
+    values: Float1D, unit: str, calibration: CalibrationResult, channel: Channel, where: str | None
+) -> tuple[Float1D, str]:
     if calibration.unit_in:
         try:
             factor, shift = declared_conversion(unit, calibration.unit_in)
@@ -141,7 +143,7 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
                 where=where,
                 expected=calibration.unit_in,
                 got=unit,
-                hint="declare the channel's unit, or use the calibration of the right sensor",
+                hint=_to_take(unit, channel, (where or "").rpartition(".")[2]),
             ) from error
         values = values * factor + shift if (factor, shift) != (1.0, 0.0) else values
         if (r0_ohm := calibration.detail.get(CURVE)) is not None:
@@ -161,6 +163,19 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
                 hint="write the offset in the channel's unit, or correct 'unit' of the channel",
             ) from error
     return values * calibration.gain + offset, unit
+
+
+def _to_take(unit: str, channel: Channel, name: str) -> str:
+    """What to try where a calibration takes another unit. A reading that is in a unit of its quantity is in no other
+    one: the log that has it was scaled before."""
+    try:
+        linear_conversion(unit, canonical(channel.quantity))
+    except UsageError:
+        return "declare the channel's unit, or use the calibration of the right sensor"
+    return (
+        f"in each test whose log has it in {normal_unit(unit)}, channels: {{{name}: {{calibration: []}}}} takes it as "
+        f"it stands, and a calibration that takes {normal_unit(unit)} in place of [] also says which way it counts"
+    )
 
 
 def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, where: str | None) -> Float1D:

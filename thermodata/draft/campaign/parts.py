@@ -78,9 +78,18 @@ class DraftJump:
 
 
 @dataclass(frozen=True, slots=True)
+class OwnChannel:
+    """tests[].channels.<name>: what a channel is in one test only. asked: of it."""
+
+    keys: Mapping[str, object]
+    asked: str
+
+
+@dataclass(frozen=True, slots=True)
 class DraftTest:
     """tests[]: files: source -> path or paths, where the source's pattern does not find them; window: of a table that
-    holds several, since its first row [s]; length_s: None where its files were not read to their ends."""
+    holds several, since its first row [s]; length_s: None where its files were not read to their ends; channels: that
+    differ in it."""
 
     id: str
     kind: Kind
@@ -90,6 +99,7 @@ class DraftTest:
     measuring: Measuring | None = None
     window: tuple[float, float] | None = None
     length_s: float | None = None
+    channels: Mapping[str, OwnChannel] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

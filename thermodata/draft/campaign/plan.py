@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
 from thermodata.draft.campaign.among_channels.asked_once import asked_once
 from thermodata.draft.campaign.among_channels.by_hand import asked_whether_held
 from thermodata.draft.campaign.among_channels.feeds_of_positions import feeds_of_positions
+from thermodata.draft.campaign.among_channels.other_units_in_tests import own_calibrations
 from thermodata.draft.campaign.among_channels.siblings import beside_each_other
 from thermodata.draft.campaign.among_channels.speeds_told import with_told_speeds
 from thermodata.draft.campaign.channels.channels import channels_of
@@ -51,6 +52,8 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     tests = drafted_tests(folder, groups, table, keyed, sorted_out.texts, aligned)
     started = [t.id for t in tests if t.kind.start is not None and datetime.fromisoformat(t.kind.start).tzinfo is None]
     beside = BesideSource(folder, groups, aligned, table, found.ignored, before, started)
+    own = own_calibrations(groups, keyed, of_groups.channels, of_groups.calibrations)
+    tests = tuple(replace(t, channels=own.get(t.id, {})) for t in tests)
     sources = asked_once(drafted_sources(beside), groups)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)

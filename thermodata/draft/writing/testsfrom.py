@@ -35,7 +35,7 @@ def pattern_of(draft: Draft) -> Pattern | None:
     tests = draft.tests
     if len(tests) < _LEAST or len({t.kind.kind for t in tests}) > 1 or draft.table:
         return None
-    if any(t.files or t.kind.start for t in tests):
+    if any(t.files or t.kind.start or t.channels for t in tests):
         return None  # each has its own
     source = next(
         (

@@ -214,13 +214,15 @@ def _test(t: DraftTest) -> str:
         body += f", conditions: {{{flow(t.conditions)}}}"
     if t.files:
         body += f", files: {{{flow(t.files)}}}"
+    if t.channels:
+        body += f", channels: {{{flow({name: own.keys for name, own in t.channels.items()})}}}"
     comment = one_line(_test_comment(t))
     return f"  - {{{body}}}" + (f"   # {comment}" if comment else "")
 
 
 def _test_comment(t: DraftTest) -> str:
     hint = f"role: {t.kind.role_hint}, as {t.kind.role_by} says?" if t.kind.role_hint else ""
-    asked = [*filter(None, (hint, t.kind.question)), *t.doubts]
+    asked = [*filter(None, (hint, t.kind.question)), *t.doubts, *dict.fromkeys(c.asked for c in t.channels.values())]
     said = f"kind {t.kind.comment}" if t.kind.comment else ""
     if t.measuring:
         said = "; ".join(filter(None, (said, f"measuring guess: {t.measuring.why}")))
