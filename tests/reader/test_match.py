@@ -47,6 +47,17 @@ def test_two_that_fit_are_an_error_with_both() -> None:
     assert "Eddy:Eddy/Z, fast:fast/Z" in str(caught.value)
 
 
+@pytest.mark.parametrize("wanted", ["Eddy_Z", "eddy_z"])
+def test_what_is_advised_is_meant_alone(wanted: str) -> None:
+    signals = [Signal("Eddy_Z", "data"), Signal("Eddy_Z", "data@2"), *SIGNALS]
+    with pytest.raises(UsageError) as caught:
+        match_signal(wanted, signals)
+    assert caught.value.hint == "write 'data:Eddy_Z' or 'data@2:Eddy_Z'"
+    assert match_signal("data@2:Eddy_Z", signals).stream == "data@2"
+    with pytest.raises(UsageError, match="write 'Eddy/Z' or 'fast/Z'"):
+        match_signal("Z", SIGNALS)
+
+
 def test_none_that_fits_names_the_nearest() -> None:
     with pytest.raises(UsageError, match="did you mean 'nActSpeed'"):
         match_signal("nActSped", SIGNALS)

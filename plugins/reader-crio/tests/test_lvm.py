@@ -148,12 +148,41 @@ def test_packets_with_other_channels_are_streams_of_their_own(tmp_path: Path) ->
         head("No", "Yes")
         + packet(["a"], x="X_Value\ta")
         + "\t1\n\t2\n\t3\n\n"
-        + packet(["a", "b"], x="X_Value\ta\tb", start="09:00:00,0")
+        + packet(["c", "b"], x="X_Value\tc\tb", start="09:00:00,0")
         + "\t4\t5\n\t6\t7\n\t8\t9\n"
     )
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data@2", "b"], [5, 7, 9])
     assert data.t_ns["data@2"][0] - START == 3600 * S
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_packet_with_a_channel_more_or_less_goes_on_in_the_same_stream(tmp_path: Path, swapped: bool) -> None:
+    def part(names: list[str], start: str, rows: str) -> str:
+        return packet(names, x="X_Value\t" + "\t".join(names), start=start) + rows
+
+    few = "\t1\n\t2\n\t3\n\n", "\t4\t5\n\t6\t7\n\t8\t9\n"
+    if swapped:
+        text = part(["a", "b"], "08:00:00,0", few[1]) + part(["a"], "09:00:00,0", few[0])
+    else:
+        text = part(["a"], "08:00:00,0", few[0]) + part(["b", "a"], "09:00:00,0", few[1])
+    data = read(tmp_path, head("No", "Yes") + text)
+    assert list(data.t_ns) == ["data"]
+    assert not data.losses
+    a, b = data.values["data", "a"], data.values["data", "b"]
+    np.testing.assert_array_equal(a, [4, 6, 8, 1, 2, 3] if swapped else [1, 2, 3, 5, 7, 9])
+    np.testing.assert_array_equal(b, [5, 7, 9, *[np.nan] * 3] if swapped else [*[np.nan] * 3, 4, 6, 8])
+    flags = [0, 0, 0, *[Flag.NOT_MEASURING] * 3]
+    assert data.flags["data", "b"].tolist() == (flags if swapped else flags[::-1])
+    assert any("'b' of data is not measured where one lacks it" in n for n in data.recording.notes)
+
+
+def test_channels_that_were_of_two_streams_go_on_in_none_of_them(tmp_path: Path) -> None:
+    """a and b had other numbers of samples, and are counted together in the next packet."""
+    heading = packet(["a", "b"], x="X_Value\ta\tb").replace("Samples\t3\t3", "Samples\t3\t2")
+    behind = packet(["a", "b"], x="X_Value\ta\tb", start="09:00:00,0")
+    data = read(tmp_path, head("No", "Yes") + heading + "\t1\t5\n\t2\t6\n\t3\t\n" + behind + "\t1\t2\n\t3\t4\n\t5\t6\n")
+    np.testing.assert_array_equal(data.values["data@3", "b"], [2, 4, 6])
 
 
 def test_appended_rows_are_kept_whatever_the_heading_announced(tmp_path: Path) -> None:

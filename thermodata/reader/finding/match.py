@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 
@@ -57,7 +58,7 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
                     f"signal '{wanted}' is ambiguous",
                     expected="one signal",
                     got=names,
-                    hint=f"write '{found[0].name}' or '{found[0].stream}:{found[0].name}'",
+                    hint=_told_apart(wanted, found, signals),
                 )
     names_by_fold = {spell(s.name).casefold(): s.name for s in signals for spell in reversed(_SPELLINGS)}
     close = list(dict.fromkeys(names_by_fold[c] for c in get_close_matches(wanted.casefold(), names_by_fold, 3, 0.5)))
@@ -70,6 +71,13 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
         or _other_encoding(wanted, close)
         or (f"did you mean '{close[0]}'?" if close else None),
     )
+
+
+def _told_apart(wanted: str, found: Sequence[Signal], signals: Sequence[Signal]) -> str:
+    """How to write each of several signals, so that it is meant alone."""
+    names = Counter(s.name for s in signals)
+    ways = (s.name if names[s.name] == 1 else f"{s.stream}:{s.name}" for s in found)
+    return "write " + " or ".join(f"'{way}'" for way in dict.fromkeys(ways) if way != wanted)
 
 
 def _by_name_now(wanted: str, signals: Sequence[Signal]) -> str | None:

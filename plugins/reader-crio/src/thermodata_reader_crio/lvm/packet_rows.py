@@ -115,13 +115,18 @@ class PacketRows:
         values: dict[str, Array] = {packet.names[i]: rows.columns[packet.columns[i]].values for i in group}
         flags = self._flags(group, cells)
         self._in_first_unit(group, values, flags)
-        values[comment_name(values)] = cells.words if cells.words is not None else np.full(n, "", object)
+        stream = self.streams.of(packet, group)
+        names = self.streams.members[stream]
+        for name in names:
+            if name not in values:  # other headings of the file have it
+                values[name], flags[name] = np.full(n, np.nan), np.full(n, Flag.NOT_MEASURING, np.uint16)
+        values[comment_name(names)] = cells.words if cells.words is not None else np.full(n, "", object)
         at = rows.line + 1
         if not keep.all():
             t_ns, at = t_ns[keep], at[keep]
             values = {k: v[keep] for k, v in values.items()}
             flags = {k: v[keep] for k, v in flags.items()}
-        return Block(self.streams.of(packet, group), t_ns, values, flags or None, at), None if good.all() else good
+        return Block(stream, t_ns, values, flags or None, at), None if good.all() else good
 
     def _flags(self, group: list[int], cells: _Cells) -> dict[str, Array]:
         """Flags of the channels that have any: of their cells, and of what the free text says of all of them."""

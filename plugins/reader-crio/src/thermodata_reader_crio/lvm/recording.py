@@ -9,6 +9,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Recording, Signal, Source
 from thermodata.reader.text.file.lines import sample
 from thermodata.reader.text.rows.typed import parse
+from thermodata.schema.words.sentences import with_count
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.scan import Note, RowPart, has_heading_behind, scan
@@ -76,20 +77,30 @@ def describe(path: Path, source: Source) -> Recording:
 
 
 def streams_of(path: Path, encoding: str) -> Streams:
-    """The streams; where each channel has an X column of its own, by reading these."""
+    """The streams with their channels, by all headings; where each channel has an X column of its own, by reading
+    these."""
     streams = Streams()
-    header, packet, decimal = Header(), None, None
+    apart: list[Packet] = []  # whose channels are told apart by rows that stand further down
+    header, packet, decimal, fresh = Header(), None, None, False
     for item in scan(path, encoding):
         if isinstance(item, Header):
             header = item
         elif isinstance(item, Packet):
-            packet, decimal = item, None
-            if not packet.multi and header.x_columns != "Multi":
+            packet, decimal, fresh = item, None, True
+            if item.multi or apart:
+                apart.append(item)
+            else:
+                streams.add(item)
+        elif isinstance(item, RowPart) and packet is not None:
+            if packet.multi:
+                decimal = decimal or decimal_of(item.data, header, packet)[0]
+                rows = parse(item.data, item.line, grid_of(header, packet, decimal))
+                streams.compare(packet, [rows.columns[x].values for x in packet.x if x is not None])
+            elif fresh and header.x_columns != "Multi" and not has_heading_behind(path, encoding, item):
                 break
-        elif isinstance(item, RowPart) and packet is not None and packet.multi:
-            decimal = decimal or decimal_of(item.data, header, packet)[0]
-            rows = parse(item.data, item.line, grid_of(header, packet, decimal))
-            streams.compare(packet, [rows.columns[x].values for x in packet.x if x is not None])
+            fresh = False
+    for heading in apart:
+        streams.add(heading)
     return streams
 
 
@@ -109,6 +120,9 @@ def _notes(streams: Streams, packet: Packet, signals: Mapping[tuple[str, str], S
         for change in streams.units.changed(stream, packet, group):
             if streams.units.is_new(stream, change):
                 yield f"line {packet.line}: {change.name}: {change}"
+        if lacking := [n for n in streams.members[stream] if n not in {packet.names[i] for i in group}]:
+            named = with_count([f"'{n}'" for n in lacking], 6)
+            yield f"not all headings name the same channels: {named} of {stream} is not measured where one lacks it"
         for i in group:
             known, unit = signals.get((stream, packet.names[i])), unit_of(packet, i)
             if known is not None and known.unit is None and unit is not None:
@@ -121,4 +135,4 @@ def _signals(streams: Streams, packet: Packet) -> Iterator[Signal]:
         stream = streams.of(packet, group)
         for i in group:
             yield Signal(packet.names[i], stream, unit_of(packet, i))
-        yield Signal(comment_name([packet.names[i] for i in group]), stream, None, "str")
+        yield Signal(comment_name(streams.members[stream]), stream, None, "str")
