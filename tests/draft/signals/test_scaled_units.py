@@ -23,6 +23,9 @@ from thermodata.reader.text import split_unit
         ("dY (0,1 µm)", "dY", "0,1 µm"),
         ("T_Bett [°C*10]", "T_Bett", "°C*10"),
         ("n [x1000 rpm]", "n", "x1000 rpm"),
+        ("dZ [µm ×0,1]", "dZ", "µm ×0,1"),
+        ("dZ [um*0.01]", "dZ", "um*0.01"),
+        ("Halle [m x 0,5 m]", "Halle [m x 0,5 m]", None),
         ("dX [100 um]", "dX [100 um]", None),
         ("nckServoData [u1; 1]", "nckServoData [u1; 1]", None),
     ],
@@ -35,6 +38,18 @@ def test_a_factor_whose_sense_nobody_knows_is_asked() -> None:
     said = guess("T_Bett [°C*10]", "°C*10")
     assert (said.quantity, said.unit) == ("temperature", None)
     assert "'°C*10', which is no unit known here" in said.questions[0]
+
+
+def test_a_factor_behind_the_unit_is_refused_in_brackets_as_in_a_row_of_units(tmp_path: Path, say: Say) -> None:
+    folder = _folder(tmp_path, "Zeit;dZ [µm ×0,1]", lambda k: str(k))
+    say("init", folder)
+    file = folder / "campaign.yaml"
+    sign = "calibrations:\n  s: {kind: scale, axis: Z, gain: 1 um/um, facing: +Z, increases_with: gap}\ntests:"
+    text = file.read_text(encoding="utf-8").replace("axis: Z,", "axis: Z, calibration: s,").replace("tests:", sign)
+    file.write_text(text, encoding="utf-8")
+    said = say("--store", tmp_path / "store", "ingest", file)
+    assert "µm ×0,1" in said.out
+    assert "losses" in said.out
 
 
 def _folder(folder: Path, header: str, row: Callable[[int], str]) -> Path:

@@ -20,8 +20,8 @@ _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_B
 _RATE = re.compile(r"^(?:in|inch|ft|gal|cc|[°º][CF]?)\s?/\s?(?:s|sec|min|h)$")
 # what holds a sign of degrees or per cent is a unit, known or not: '0.05 °C', '%FS', '"'; '%MW100' is an address
 _HAS_SIGN = re.compile(r"^(?!%[IQM][XBWDL]?\d)(?:[^;\[\]]{0,12}[°º˚%‰][^;\[\]]{0,12}|[\"″])$")
-# '°C*10', 'x1000 rpm': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
-_TIMES_TEN = re.compile(r"\s*[*·×x]\s*10+$|^[*·×x]\s*10+\s*")
+# '°C*10', 'x1000 rpm', 'µm ×0,1': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
+_TIMES_TEN = re.compile(r"\s*[*·×x]\s*(?:10+|0[.,]\d{1,6})$|^[*·×x]\s*10+\s*")
 # '°C [bed]', 'µm (Z)': the unit first, and in the brackets what it is of; other units are names as well: 'V [left]'
 _UNIT_FIRST = re.compile(
     r"^(?P<unit>(?:[°º˚]|deg) ?[CF]|[uµμ]m)\s*(?:\[(?=[^\[\]]*\]$)|\((?=[^()]*\)$))(?P<name>[^\W\d_].*).$"
