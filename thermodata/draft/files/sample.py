@@ -18,6 +18,7 @@ from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Record
 from thermodata.reader.contract.guard import guarded
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
+_MOST_LOST, _TOLD_SHARE = 2, 0.01
 SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 LONGEST_JUMP_NS = 3600 * 10**9
@@ -69,6 +70,7 @@ class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
     for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
     failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file;
+    lost: what the first losses say;
     mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
     the file that the courses are of, where that is not all of it; periods_s: how far the rows of a stream are usually
     apart."""
@@ -80,6 +82,7 @@ class Sample:
     first_ns: int | None = None
     last_ns: int | None = None
     losses: int = 0
+    lost: tuple[str, ...] = ()
     rows: int = 0
     failed: str = ""
     repeats: RepeatedTimes = RepeatedTimes()
@@ -93,6 +96,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
     bytes."""
     watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
+    lost: list[str] = []
     repeats, clocks = RepeatedTimes(), dict[str, Clock]()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
@@ -105,6 +109,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         for item in items:
             if isinstance(item, Loss):
                 losses += 1
+                lost += [_said(item)] if len(lost) < _MOST_LOST else []
                 continue
             _take(item, values, parts, wanted, worded)
             unseen.discard(item.stream)
@@ -134,6 +139,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         first,
         last,
         losses,
+        tuple(lost),
         rows,
         failed,
         repeats,
@@ -141,6 +147,12 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         notes_of(clocks),
         periods_s={stream: clock.period_s for stream, clock in clocks.items()},
     )
+
+
+def _said(loss: Loss) -> str:
+    """What a loss says of where, why, and how much of a file that is."""
+    share = f" ({loss.fraction:.0%} of the file)" if loss.fraction and loss.fraction >= _TOLD_SHARE else ""
+    return f"{loss.where}: {loss.reason}{share}"
 
 
 def short(error: Exception) -> str:

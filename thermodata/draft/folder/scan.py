@@ -86,4 +86,7 @@ def _damage(file: RawFile) -> str:
         wrong = [n for n in file.recording.notes if re.search(r"cut|damag|end|incomplete|lost|truncat|missing|past", n)]
         return wrong[0] if wrong else "it does not end as it should"
     lost = file.sample.losses
-    return f"{counted(lost, 'loss')} in what was read of it" if lost else ""
+    if not lost:
+        return ""
+    said = "; ".join(file.sample.lost) + ("; ..." if lost > len(file.sample.lost) else "")
+    return f"{counted(lost, 'loss')} in what was read of it: {said}"
