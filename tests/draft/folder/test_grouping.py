@@ -311,3 +311,19 @@ def test_two_logs_of_one_test_beside_others_are_that_test(tmp_path: Path) -> Non
     hall(tmp_path / "ttn_warmup.txt", "T south", days=0.05)
     _, made = drafted(tmp_path)
     assert "warmup" in {t.id for t in made.tests}
+
+
+def test_the_length_of_a_test_in_parts_is_that_of_all(tmp_path: Path) -> None:
+    """Of dated parts with the pause between them, of two logs the longer one."""
+    for k, test in enumerate(("heat", "cool")):
+        for part in range(3):
+            text(
+                tmp_path / f"{test}_{part + 1}.csv",
+                ["Time", "Spindle speed [rpm]"],
+                [
+                    local(300, 10, START + timedelta(days=k, seconds=3060 * part), "UTC", "%Y-%m-%d %H:%M:%S"),
+                    numbers(speeds(300, [3000]), 0),
+                ],
+            )
+    draft, _ = drafted(tmp_path)
+    assert [(t.id, t.length_s) for t in draft.tests] == [("cool", 9110.0), ("heat", 9110.0)]

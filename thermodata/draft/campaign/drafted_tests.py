@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 from thermodata.draft.campaign.parts import DraftTest
@@ -88,6 +89,7 @@ def _drafted(
     if beside.note is not None:
         kind, conditions, more = _with_note(kind, conditions, beside.note)
         doubts += more
+    logs = [own for g in groups if (own := g.tests.get(test))]
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     block = next((f.block for f in files if f.block is not None), None)
     window = None if block is None else block.window
@@ -98,16 +100,28 @@ def _drafted(
     if window is None and (jumps := window_behind_jumps(files)) is not None:
         doubts.append(jumps)
     doubts += range_questions(files)
-    return DraftTest(test, kind, conditions, own, tuple(doubts), measuring, window, _length_s(files, window))
+    return DraftTest(test, kind, conditions, own, tuple(doubts), measuring, window, _length_s(logs, window))
 
 
-def _length_s(files: Sequence[RawFile], window: tuple[float, float] | None) -> float | None:
-    """Of the longest of a test's files, whose clocks may differ; None where one was not read to its end."""
+def _length_s(logs: Sequence[Sequence[RawFile]], window: tuple[float, float] | None) -> float | None:
+    """Of the longest of a test's logs, whose clocks may differ; None where a file was not read to its end. logs: the
+    files of each source, which are parts of one."""
     if window is not None:
         return window[1] - window[0]
-    ends = [(f.sample.first_ns, f.sample.last_ns) if f.sample.whole else (None, None) for f in files]
-    spans = [(last - first) / 1e9 for first, last in ends if first is not None and last is not None]
-    return max(spans) if spans and len(spans) == len(files) else None
+    spans = [_span_s(files) for files in logs]
+    known = [s for s in spans if s is not None]
+    return max(known) if known and len(known) == len(spans) else None
+
+
+def _span_s(files: Sequence[RawFile]) -> float | None:
+    """From the first row of a log to its last, with the pauses between its parts where clocks tell these."""
+    ends = [(f.sample.first_ns, f.sample.last_ns) for f in files if f.sample.whole]
+    told = sorted((first, last) for first, last in ends if first is not None and last is not None)
+    if not told or len(told) < len(files):
+        return None
+    if any(then < last for (_, last), (then, _) in pairwise(told)):  # each counts from its own start
+        return sum(last - first for first, last in told) / 1e9
+    return (told[-1][1] - told[0][0]) / 1e9
 
 
 def _with_note(kind: Kind, conditions: Mapping[str, str], note: Note) -> tuple[Kind, dict[str, str], list[str]]:
