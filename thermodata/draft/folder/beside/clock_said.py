@@ -15,9 +15,34 @@ _AMOUNT = re.compile(
     r"(?P<unit>s|sec|seconds?|sekund\w*|second[ei]|min|minutes?|minut\w*|h|hours?|stund\w*|heures?|or[ae])\b",
     re.IGNORECASE,
 )
-_CLOCK = r"\b(?:clocks?|uhr|systemuhr|hodiny|horloge|orologio|reloj)\b"
-_SLOW = r"slow|behind|(?:geht|ging|gehen)[^.;\n]*\bnach|pozadu|zpozd\w+|retard|ritardo|indietro|atras\w+"
-_FAST = r"fast|ahead|(?:geht|ging|gehen)[^.;\n]*\bvor|napred|napřed|avance|anticipo|avanti|adelant\w+"
+# '2:30 min', '0:02:30 h', '3m05s' are one amount; what stands before '/day', or behind a stroke or a dash, is none
+_CLOCKED = re.compile(
+    r"(?<![\d:.,/])(?P<a>\d{1,3}):(?P<b>[0-5]\d)(?::(?P<c>[0-5]\d))?\s*(?P<unit>h|hours?|stund\w*|std|min|minut\w*)\b",
+    re.IGNORECASE,
+)
+_COMPACT = re.compile(r"(?<!\w)(?P<m>\d{1,3})\s?(?:m|'|′)\s?(?P<s>[0-5]?\d)\s?(?:s|\"|″|'')(?!\w)", re.IGNORECASE)
+_PART = re.compile(r"(?:\d\s*[:/\-–]|\d\s+\d+/|\d[a-z]|±\s*)$", re.IGNORECASE)
+_RATE = re.compile(
+    r"\s*(?:/\s*|\b(?:pro|per|je|al|par|por|za|an?)\s+)(?:d|day|tag|h|hour|stunde|giorno|jour|d[ií]a|den|week|woche)\b",
+    re.IGNORECASE,
+)
+_NO_AMOUNT = "part of something else"
+_BEHIND = r"(?=\s*(?:$|[.,;)]|geg|vs\b))"  # 'vor' and 'nach' that lead to nothing: '5 min vor dem Start'
+# what has a clock, or verbs that only clocks have: 'GL840 geht 2 min vor'
+_CLOCK = (
+    r"\b(?:clocks?|uhr|systemuhr|hodiny|horloge|orologio|reloj|\w*logger|recorder|enregistreur|registratore)\b"
+    rf"|\b(?:geht|ging|gehen)\b[^.;\n]*\d[^.;\n]*\b(?:vor|nach)\b{_BEHIND}|\bjd(?:e|ou)\s+o\b"
+)
+_OF_UHR = r"uhr\b[^.;\n]*\d\s*(?:s|sec|sek\w*|min\w*|h|std|stunden?)\s+"
+_IN_SIGNS = {"時計": "clock", "遅れ": "slow", "進ん": "fast", "時間": "h", "分": "min", "秒": "s"}
+_SLOW = (
+    rf"slow|behind|{_OF_UHR}nach{_BEHIND}|(?:geht|ging|gehen)[^.;\n]*\bnach|"
+    r"pozadu|zpozd\w+|retard|ritardo|indietro|atras\w+"
+)
+_FAST = (
+    rf"fast|ahead|{_OF_UHR}vor{_BEHIND}|(?:geht|ging|gehen)[^.;\n]*\bvor|"
+    r"napred|napřed|avance|anticipo|avanti|adelant\w+"
+)
 _SHOWN = 80  # letters of a sentence
 _LONGEST = 600  # letters of a sentence that says it: the patterns take the square of them
 _UNITS = {"s": "s", "m": "min", "h": "h", "o": "h"}
@@ -44,18 +69,26 @@ def offset_of(sentence: str) -> str | None:
     """'37 min' of a clock that is 37 min slow, '-37 min' of one that is fast; None where it is not said, or both."""
     if len(sentence) > _LONGEST:
         return None
+    for sign, word in _IN_SIGNS.items():
+        sentence = sentence.replace(sign, f" {word} ")
+    sentence = sentence.strip(" .;")
     amounts = set(_amounts(sentence))
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
-    if len(amounts) != 1 or not re.search(_CLOCK, sentence, re.IGNORECASE) or bool(slow) == bool(fast):
+    of_clock = re.search(_CLOCK, sentence, re.IGNORECASE) is not None
+    if len(amounts) != 1 or _NO_AMOUNT in amounts or not of_clock or bool(slow) == bool(fast):
         return None
     return f"{'-' if fast else ''}{amounts.pop()}"
 
 
 def _amounts(sentence: str) -> Iterator[str]:
     """The lengths of time that a sentence says, each of its parts: '12 min 50 s'."""
+    sentence = _COMPACT.sub(lambda m: f"{m['m']} min {m['s']} s", _CLOCKED.sub(_spelled, sentence))
     parts: list[tuple[str, str]] = []
     end = 0
     for found in _AMOUNT.finditer(sentence):
+        if _PART.search(sentence[: found.start()]) or _RATE.match(sentence[found.end() :]):
+            yield _NO_AMOUNT
+            continue
         word = found["unit"].lower()
         unit = "h" if word.startswith("st") else _UNITS[word[0]]
         goes_on = parts and re.fullmatch(r"\s*(?:e|et|und|and|y|a|,)?\s*", sentence[end : found.start()], re.IGNORECASE)
@@ -66,6 +99,13 @@ def _amounts(sentence: str) -> Iterator[str]:
         end = found.end()
     if parts:
         yield " ".join(map(" ".join, parts))
+
+
+def _spelled(found: re.Match[str]) -> str:
+    """'2 min 30 s' of '2:30 min', '1 h 5 min' of '1:05 h', '2 min 30 s' of '0:02:30 h'."""
+    first = ("h", "min", "s") if found["c"] or found["unit"][0].lower() in "hs" else ("min", "s")
+    said = [(int(n), u) for n, u in zip([found["a"], found["b"], found["c"]], first, strict=False) if n is not None]
+    return " ".join(f"{n} {u}" for n, u in said if n) or "0 s"
 
 
 def zone_said(folder: Path, logs: Collection[PurePosixPath]) -> str:
