@@ -11,6 +11,7 @@ from thermodata.draft.campaign.among_channels.asked_once import asked_once
 from thermodata.draft.campaign.among_channels.by_hand import asked_whether_held
 from thermodata.draft.campaign.among_channels.feeds_of_positions import feeds_of_positions
 from thermodata.draft.campaign.among_channels.other_units_in_tests import own_calibrations
+from thermodata.draft.campaign.among_channels.renamed import with_renamed_asked
 from thermodata.draft.campaign.among_channels.siblings import beside_each_other
 from thermodata.draft.campaign.among_channels.speeds_told import with_told_speeds
 from thermodata.draft.campaign.channels.channels import channels_of
@@ -54,7 +55,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     beside = BesideSource(folder, groups, aligned, table, found.ignored, before, started)
     own = own_calibrations(groups, keyed, of_groups.channels, of_groups.calibrations)
     tests = tuple(replace(t, channels=own.get(t.id, {})) for t in tests)
-    sources = asked_once(drafted_sources(beside), groups)
+    sources = with_renamed_asked(asked_once(drafted_sources(beside), groups), groups, of_groups.channels)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)
     left_out = (*_but_of(table, found.ignored), *sorted_out.unread, *idle)

@@ -1,0 +1,69 @@
+"""Columns that are called otherwise from some test on are asked once, with what makes one channel of both; columns that
+stand beside each other, or are of other axes or places, are not."""
+
+from __future__ import annotations
+
+import re
+from datetime import timedelta
+from pathlib import Path
+
+import yaml
+
+from tests.commands import Say
+from tests.draft.labs import START, local, numbers, speeds, text, warm
+
+N = 360
+
+
+def _write(folder: Path, day: int, names: list[str], order: list[int] | None = None, stem: str = "P") -> None:
+    columns = [numbers(warm(N, low, rise, 0.3, 1), 3) for low, rise in ((0, 30), (21, 6), (20, 2))]
+    columns += [numbers(speeds(N, [3000]), 0)]
+    times = local(N, 10, START + timedelta(days=day), "UTC", "%Y-%m-%dT%H:%M:%SZ")
+    order = order or list(range(len(names)))
+    text(folder / f"{stem}{day}.csv", ["time", *(names[i] for i in order)], [times, *(columns[i] for i in order)])
+
+
+BEFORE = ["probe_Z [um]", "T_bearing_front [degC]", "T_bed [degC]", "spindle_speed [rpm]"]
+AFTER = ["dZ [um]", "Lager vorn [degC]", "Bett [degC]", "Drehzahl [rpm]"]
+
+
+def _question(folder: Path, say: Say) -> str:
+    assert say("init", folder).code == 0
+    draft = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    return next((line for line in draft.splitlines() if "under two names?" in line), "")
+
+
+def test_what_is_of_one_axis_or_place_may_be_one_channel(tmp_path: Path, say: Say) -> None:
+    for day in range(4):
+        _write(tmp_path, day, BEFORE if day < 2 else AFTER, None if day < 3 else [3, 1, 2, 0])
+    asked = _question(tmp_path, say)
+    assert "'dZ' and 'probe_Z', 'Lager_vorn' and 'T_bearing_front', 'Bett' and 'T_bed'" in asked
+    keys = re.search(r"in P2, P3: (channels: \{.*?\}\})", asked)
+    assert keys is not None
+    draft = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    lines = [x for x in draft.splitlines() if not re.match(r"  (dZ|Lager_vorn|Bett|Drehzahl): ", x)]
+    lines = [x.replace(", kind:", f", {keys[1]}, kind:") if re.match(r"  - \{id: P[23],", x) else x for x in lines]
+    (tmp_path / "campaign.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    store = tmp_path / "store"
+    assert "losses" not in say("--store", store, "ingest", tmp_path / "campaign.yaml").out
+    query = "select channel, count(distinct test) from sample group by channel order by channel"
+    shown = say("--store", store, "sql", query, "--csv").out.splitlines()[1:]
+    assert shown == ["T_bearing_front,4", "T_bed,4", "probe_Z,4", "spindle_speed,4"]
+
+
+def test_columns_without_names_are_told_by_their_places(tmp_path: Path, say: Say) -> None:
+    for day in range(4):
+        names, stem = ([""] * 4, "lauf") if day < 2 else (["Z", "T1", "T2", "n"], "P")
+        _write(tmp_path, day, names, stem=stem)
+    asked = _question(tmp_path, say)
+    assert "'column_3' and 'T1', 'column_4' and 'T2'" in asked
+
+
+def test_what_stands_beside_the_other_or_is_of_another_place_is_not_asked(tmp_path: Path, say: Say) -> None:
+    for day in range(4):
+        _write(tmp_path, day, ["dX [um]", "T_bed [degC]"] if day < 2 else ["dY [um]", "T_column [degC]"])
+    assert not _question(tmp_path, say)
+    for day in range(4):
+        _write(tmp_path / "b", day, BEFORE if day else BEFORE[:2])
+    assert not _question(tmp_path / "b", say)
+    assert "under two names" not in str(yaml.safe_load((tmp_path / "b" / "campaign.yaml").read_text("utf-8")))
