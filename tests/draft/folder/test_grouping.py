@@ -327,3 +327,16 @@ def test_the_length_of_a_test_in_parts_is_that_of_all(tmp_path: Path) -> None:
             )
     draft, _ = drafted(tmp_path)
     assert [(t.id, t.length_s) for t in draft.tests] == [("cool", 9110.0), ("heat", 9110.0)]
+
+
+@pytest.mark.parametrize(("name", "pause_s", "asked"), [("run_B_Fortsetzung", 300, True), ("run_B_neu", 90_000, False)])
+def test_a_test_that_goes_on_soon_after_another_of_its_name_is_asked(
+    tmp_path: Path, name: str, pause_s: float, asked: bool
+) -> None:
+    log(tmp_path / "run_A.tdms", 0)
+    log(tmp_path / "run_B.tdms", 1)
+    log(tmp_path / f"{name}.tdms", 1 + (1000 + pause_s) / 86400)
+    draft, _ = drafted(tmp_path)
+    doubts = {t.id: "; ".join(t.doubts) for t in draft.tests}
+    assert ("does it go on 'run_B', which ended 5 min before?" in doubts[name]) is asked
+    assert not any("does it go on" in doubts[t] for t in ("run_A", "run_B"))

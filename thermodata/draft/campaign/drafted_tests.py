@@ -16,6 +16,7 @@ from thermodata.draft.folder.beside.listed_times import ListedTime
 from thermodata.draft.folder.beside.notes import Note, notes_of
 from thermodata.draft.folder.beside.table import TestTable
 from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.folder.into_tests.goes_on import rest_of_others
 from thermodata.draft.folder.into_tests.group import files_of
 from thermodata.draft.folder.put_aside.file_copies import other_versions
 from thermodata.draft.probes.end_of_range import range_questions
@@ -30,14 +31,15 @@ from thermodata.draft.words.roles import said_by_list
 @dataclass(frozen=True, slots=True)
 class _BesideTest:
     """What is known of a test beside its files. listed: its row of the table of tests; began: when it began by that;
-    warm: the doubt that it began at rest; version: a log that this one may be another version of; otherwise: what its
-    logs say of when it ran that the table does not."""
+    warm: the doubt that it began at rest; version: a log that this one may be another version of; goes_on: the question
+    whether it is the rest of another one; otherwise: what its logs say of when it ran that the table does not."""
 
     listed: Mapping[str, str]
     began: ListedTime | None
     note: Note | None
     warm: str | None
     version: RawFile | None
+    goes_on: str | None
     otherwise: Sequence[str]
 
 
@@ -61,10 +63,11 @@ def drafted_tests(
     notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
     warm = warm_starts(recordings, named)
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    rest = {t: asked for g in groups for t, asked in rest_of_others(g.source, g.tests).items()}
     otherwise = not_as_listed(recordings, times)
+    more = {t: (rest.get(t), otherwise.get(t, ())) for t in ids}
     beside = {
-        t: _BesideTest(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), otherwise.get(t, ()))
-        for t in ids
+        t: _BesideTest(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), *more[t]) for t in ids
     }
     return tuple(_drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t]) for t in ids)
 
@@ -75,6 +78,7 @@ def _drafted(
     listed, version = beside.listed, beside.version
     kind = kind_of(test, files, listed)
     asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
+    asked += [beside.goes_on] if beside.goes_on else []
     conditions, doubts = dict(kind.conditions), [*kind.doubts, *([beside.warm] if beside.warm else []), *asked]
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")

@@ -40,7 +40,7 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
     for together in alike.values():
         together.sort(key=lambda p: (len(_beside(p).stem), _beside(p).stem))
         for i, copy in enumerate(together):
-            of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
+            of = next((p for p in together[:i] if p not in found and is_named_after(copy, p)), None)
             if of is not None and _equal(folder / copy, folder / of, (folder / of).stat().st_size):
                 found[copy] = of
     return found | _in_other_folders(folder, alike, found)
@@ -100,7 +100,7 @@ def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         kin = _names_within_names(alike)
         for short in alike:
             longer = (p for p in kin.get(short, ()) if sizes[p] > sizes[short] and p not in found)
-            called = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
+            called = (p for p in longer if is_named_after(short, p) or is_named_after(p, short))
             of = next((p for p in called if _equal(folder / short, folder / p, sizes[short])), None)
             if of is not None:
                 found[short] = of
@@ -145,7 +145,7 @@ def other_versions(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, RawFile]
         for together in alike.values()
         for test, own in together
         for of, other in together
-        if of != test and _is_named_after(own.path, other.path)
+        if of != test and is_named_after(own.path, other.path)
     }
 
 
@@ -160,7 +160,8 @@ def _beside(path: PurePosixPath) -> PurePosixPath:
     return path
 
 
-def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
+def is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
+    """Whether a name is another one and more words: 'V1_corrected' of 'V1', 'backup/R1' of 'R1'."""
     copy, original = _beside(copy), _beside(original)
     before, named, after = copy.stem.partition(original.stem)
     more = f"{before}{after}".strip(" -_.")
