@@ -7,10 +7,11 @@ import re
 from datetime import timedelta
 from pathlib import Path
 
+import pytest
 import yaml
 
 from tests.commands import Say
-from tests.draft.labs import START, local, numbers, speeds, text, warm
+from tests.draft.labs import START, local, numbers, speeds, text, warm, workbook
 
 N = 360
 
@@ -67,3 +68,24 @@ def test_what_stands_beside_the_other_or_is_of_another_place_is_not_asked(tmp_pa
         _write(tmp_path / "b", day, BEFORE if day else BEFORE[:2])
     assert not _question(tmp_path / "b", say)
     assert "under two names" not in str(yaml.safe_load((tmp_path / "b" / "campaign.yaml").read_text("utf-8")))
+
+
+@pytest.mark.parametrize(("apart_h", "sheets"), [(24, True), (0, False)])
+def test_sheets_whose_columns_are_called_otherwise_are_tests_unless_they_ran_at_once(
+    tmp_path: Path, say: Say, apart_h: int, sheets: bool
+) -> None:
+    heads = [["dZ [µm]", "T_bed [°C]", "T_hall [°C]"], ["Z [µm]", "Bett [°C]", "Halle [°C]"], BEFORE[:3]]
+    book: dict[str, list[list[object]]] = {}
+    for k, head in enumerate(heads):
+        times = local(60, 60, START + timedelta(hours=apart_h * k), "UTC", "%Y-%m-%d %H:%M:%S")
+        columns = [numbers(warm(60, low, 3, 0.3, k), 2) for low in (0, 21, 20)]
+        rows = [[t, *map(float, row)] for t, *row in zip(times, *columns, strict=True)]
+        book[f"V{k + 1}"] = [["Zeit", *head], *rows]
+    workbook(tmp_path / "Messung.xlsx", book)
+    assert say("init", tmp_path).code == 0
+    made = yaml.safe_load((tmp_path / "campaign.yaml").read_text("utf-8"))
+    assert [t["id"] for t in made["tests"]] == (["V1", "V2", "V3"] if sheets else ["Messung"])
+    (source,) = made["sources"].values()
+    assert (source.get("table") == {"sheet": "{test}"}) is sheets
+    asked = "'Z' and 'dZ', 'Bett' and 'T_bed', 'Halle' and 'T_hall'"
+    assert (asked in (tmp_path / "campaign.yaml").read_text("utf-8")) is sheets

@@ -18,7 +18,8 @@ _RATES_APART = 1.5  # rows of one span that are of two rates
 
 def sheets_of(recording: Recording) -> tuple[list[str], list[str]]:
     """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
-    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them, or where
+    signals; or with dates, as many columns, and called alike but for a number, as where somebody named the columns anew
+    in each. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them, or where
     streams are the series of one table."""
     homes = [_home(s) for s in recording.signals]
     if any(SERIES in s.properties for s in recording.signals) or None in homes or len(set(homes)) < 2:
@@ -27,10 +28,14 @@ def sheets_of(recording: Recording) -> tuple[list[str], list[str]]:
     for home, s in zip(homes, recording.signals, strict=True):
         if home is not None:
             own.setdefault(home, set()).add(s.name.removeprefix(f"{home}/"))
-    streams = list(own)
+    streams, dated = list(own), recording.clock == "absolute"
 
     def like(one: str) -> list[str]:
-        return [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
+        named = [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
+        return named if len(named) > 1 or not dated else [n for n in streams if shape(n) == shape(one)]
+
+    def shape(one: str) -> tuple[str, int]:
+        return re.sub(r"\d+", "#", one), len(own[one])
 
     alike = max((like(n) for n in streams), key=len)
     others = [n for n in streams if n not in alike]

@@ -25,7 +25,7 @@ def with_renamed_asked(
     sources: Sequence[DraftSource], groups: Sequence[Group], channels: Sequence[DraftChannel]
 ) -> tuple[DraftSource, ...]:
     """The sources, those asked whose channels may be those of others, or of other tests, under other names."""
-    live = [g for g in groups if g.tests and not g.shared and not any(f.sensor or f.part for f in g.files)]
+    live = [g for g in groups if g.tests and not g.shared and not any(f.sensor or f.block for f in g.files)]
     asked: dict[str, str] = {}
     for k, group in enumerate(live):
         first = next(g for g in live[: k + 1] if g is group or _is_before(g, group))
@@ -110,5 +110,9 @@ def _question(pairs: dict[str, list[Pair]]) -> str:
 
 def _keys(a: DraftChannel, b: DraftChannel) -> str:
     source = f"source: {b.source}, " if b.source != a.source else ""
-    unit = f", unit: {json.dumps(b.said.unit)}" if b.said.unit and b.said.unit != a.said.unit else ""
-    return f"{source}signal: {json.dumps(b.signal, ensure_ascii=False)}{unit}"
+    unit = f", unit: {_quoted(b.said.unit)}" if b.said.unit and b.said.unit != a.said.unit else ""
+    return f"{source}signal: {_quoted(b.signal)}{unit}"
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)

@@ -84,7 +84,7 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
                 i
                 for i, c in enumerate(clusters)
                 if _kind(c[0]) == _kind(file)
-                and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c))
+                and (len(own & names[i]) >= _ALIKE * min(len(own), len(names[i])) or _twin(file, c) or _sheet(file, c))
             ),
             None,
         )
@@ -151,6 +151,11 @@ def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
         shape(str(other.path)) == shape(str(file.path)) and own == {shape(split_unit(s.name)[0]) for s in other.signals}
         for other in cluster[:20]
     )
+
+
+def _sheet(file: RawFile, cluster: Sequence[RawFile]) -> bool:
+    """Whether it is a sheet of a workbook whose other sheets are tests, whatever their columns are called."""
+    return file.sheet is not None and any(other.path == file.path for other in cluster)
 
 
 def _loggers(cluster: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
