@@ -93,7 +93,7 @@ def _drafted(
     if beside.note is not None:
         kind, conditions, more = _with_note(kind, conditions, beside.note)
         doubts += more
-    logs = [own for g in groups if (own := g.tests.get(test))]
+    logs = [found for g in groups if (found := g.tests.get(test))]
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     block = next((f.block for f in files if f.block is not None), None)
     window = None if block is None else block.window

@@ -82,8 +82,8 @@ def _pairs(before: Sequence[DraftChannel], here: Sequence[DraftChannel]) -> list
 
 def _differ(a: DraftChannel, b: DraftChannel) -> bool:
     said = ((a.said.quantity, b.said.quantity), (a.said.axis, b.said.axis), (a.said.at, b.said.at))
-    units = a.said.unit, b.said.unit
-    return any(x and y and x != y for x, y in said) or bool(units[0] and units[1] and not converts(*units))
+    one, other = a.said.unit, b.said.unit
+    return any(x and y and x != y for x, y in said) or bool(one and other and not converts(one, other))
 
 
 def _alike(a: DraftChannel, b: DraftChannel) -> bool:
