@@ -80,3 +80,23 @@ def test_readings_that_are_missing_are_no_rail(tmp_path: Path) -> None:
     text(tmp_path / "W01.csv", ["t [s]", "Z [V]", "n [rpm]"], columns, mark=",")
     (test,) = draft_files(tmp_path).draft.tests
     assert any(d.startswith("window: 'Z") for d in test.doubts)
+
+
+@pytest.mark.parametrize(("dwell_s", "asked"), [(20, True), (2, False)])
+def test_a_short_jump_test_at_the_head_of_a_long_log(tmp_path: Path, dwell_s: int, asked: bool) -> None:
+    """Of three hours at 1 Hz each dwell of 20 s has three points in a course; a hand at a probe makes no plateau."""
+    t = np.arange(11_000) * 1.0
+    rng = np.random.default_rng(4)
+    grown = 0.4 * (1 - np.exp(-np.maximum(t - 180, 0) / 3000))
+    probes = [
+        1 + grown + rng.normal(0, 0.001, t.size) + np.where((t >= at_s) & (t < at_s + dwell_s), 1.0, 0.0)
+        for at_s in (20, 80, 140)
+    ]
+    columns = [numbers(t, 0), *(numbers(x, 4) for x in probes), numbers(np.where(t > 180, 6000.0, 0.0), 0)]
+    text(tmp_path / "W01.csv", ["t [s]", "X [V]", "Y [V]", "Z [V]", "n [rpm]"], columns, mark=",")
+    (test,) = draft_files(tmp_path).draft.tests
+    doubts = [d for d in test.doubts if d.startswith("window: ")]
+    assert bool(doubts) is asked
+    if asked:
+        assert doubts[0].startswith("window: 'X [V]', 'Y [V]', 'Z [V]' go up and down")
+        assert "window: [162 s, 10999 s]" in doubts[0] or "window: [161 s, 10999 s]" in doubts[0]

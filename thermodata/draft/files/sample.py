@@ -22,6 +22,8 @@ _MOST_LOST, _TOLD_SHARE = 2, 0.01
 SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 LONGEST_JUMP_NS = 3600 * 10**9
+HEAD_NS = 1800 * 10**9  # of a jump test at the beginning of a test
+_PROBES = ("displacement", "voltage")
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _COURSE_IF_ROOM = ("power", None)  # None: what no name says its values may, as of a switch
@@ -73,7 +75,7 @@ class Sample:
     lost: what the first losses say;
     mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
     the file that the courses are of, where that is not all of it; periods_s: how far the rows of a stream are usually
-    apart."""
+    apart; heads: the first half hour of each probe, of whose jump test a course may have no point on a plateau."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -90,6 +92,7 @@ class Sample:
     mended: tuple[str, ...] = ()
     extents: Mapping[tuple[str, str], tuple[float, float]] = field(default_factory=dict)
     periods_s: Mapping[str, float] = field(default_factory=dict)
+    heads: Mapping[tuple[str, str], Course] = field(default_factory=dict)
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
@@ -130,6 +133,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         items.close()  # type: ignore[attr-defined]
     first, last = extent_of(clocks) or (first, last)
     brief = whole and (last or 0) - (first or 0) <= LONGEST_JUMP_NS  # a jump test may be of what nothing tells of
+    probes = {(s.stream, s.name) for s in recording.signals if guess_of(s).quantity in _PROBES}
     told = {(s.stream, s.name) for s in recording.signals if brief or _tells(s, values.get((s.stream, s.name)))}
     return Sample(
         values,
@@ -146,6 +150,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         first_of(clocks),
         notes_of(clocks),
         periods_s={stream: clock.period_s for stream, clock in clocks.items()},
+        heads={k: _thinned(_head(v, first or 0)) for k, v in parts.items() if k in told and k in probes},
     )
 
 
@@ -205,6 +210,11 @@ def _take(
         if key in wanted and column.dtype.kind in "biuf":
             step = max(1, column.size // _KEPT_ROWS)
             parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
+
+
+def _head(parts: Sequence[tuple[Int1D, Array]], first_ns: int) -> list[tuple[Int1D, Array]]:
+    """What of the parts of a course lies in the first half hour, though that be nothing."""
+    return [(t[early], x[early]) for t, x in parts for early in [t < first_ns + HEAD_NS]]
 
 
 def _thinned(parts: Sequence[tuple[Int1D, Array]]) -> Course:

@@ -9,14 +9,14 @@ import numpy as np
 
 from thermodata.calibration.jump.plateaus import Step
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.files.sample import Course
+from thermodata.draft.files.sample import HEAD_NS, Course, Sample
 from thermodata.draft.probes.jumps import staircase
 from thermodata.draft.probes.out_of_range import out_of_range
 from thermodata.draft.signals.guess import guess_of
 from thermodata.plugin import Float1D
 from thermodata.schema.words.sentences import with_count
 
-_LONGEST_S = 1800.0  # of a jump test at the beginning of a test
+_LONGEST_S = HEAD_NS / 1e9  # of a jump test at the beginning of a test
 _OF_TEST = 0.2  # and of its length
 _TURNS_RPM = 20.0
 _BACK = 0.15  # of the largest step: what the steps of a probe add up to that comes back
@@ -37,7 +37,7 @@ def window_behind_jumps(files: Sequence[RawFile]) -> str | None:
             s.name: end
             for s in file.signals
             if guess_of(s).quantity in ("displacement", "voltage")
-            and (end := _moved_until(file.sample.courses.get((s.stream, s.name)), first, until_s)) is not None
+            and (end := _moved_until(file.sample, (s.stream, s.name), first, until_s)) is not None
         }
         if seen:
             end = math.ceil(max(seen.values()))
@@ -62,21 +62,23 @@ def _rest_s(file: RawFile, first_ns: int) -> float:
     return min(starts, default=math.inf)
 
 
-def _moved_until(course: Course | None, first_ns: int, until_s: float) -> float | None:
+def _moved_until(sample: Sample, key: tuple[str, str], first_ns: int, until_s: float) -> float | None:
     """When the last step of a probe ended that went in steps and came back [s]; None of another."""
+    course = sample.courses.get(key)
     if course is None:
         return None
     out = out_of_range(course.values)
     away = np.zeros(0, np.int64) if out is None else np.flatnonzero(out & np.isfinite(course.values))
     # between visits to its probe a machine takes it to its rail and back, which is no jump test
     until_ns = float(course.t_ns[away[0]]) if away.size else math.inf
-    early = ((course.t_ns - first_ns) / 1e9 < until_s) & (course.t_ns < until_ns)
+    head = sample.heads.get(key, course)
+    early = ((head.t_ns - first_ns) / 1e9 < until_s) & (head.t_ns < until_ns)
     if np.count_nonzero(early) < _LEAST_ROWS:
         return None
-    found = staircase(Course(course.t_ns[early], course.values[early]))
+    found = staircase(Course(head.t_ns[early], head.values[early]))
     if found is None or not _comes_back(found[0]) or not _is_large(found[0], course.values):
         return None
-    return float(course.t_ns[early][0] - first_ns) / 1e9 + found[0][-1].to_s
+    return float(head.t_ns[early][0] - first_ns) / 1e9 + found[0][-1].to_s
 
 
 def _is_large(steps: Sequence[Step], values: Float1D) -> bool:

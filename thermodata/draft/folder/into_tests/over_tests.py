@@ -53,7 +53,8 @@ def within(file: RawFile, first: int, last: int) -> RawFile:
         if (part := course.values[inside][np.isfinite(course.values[inside])]).size:
             extents[key] = (float(part.min()), float(part.max()))
     begin, end = max(file.sample.first_ns or first, first), min(file.sample.last_ns or last, last)
-    return replace(file, sample=replace(file.sample, courses=courses, extents=extents, first_ns=begin, last_ns=end))
+    part_of = replace(file.sample, courses=courses, heads={}, extents=extents, first_ns=begin, last_ns=end)
+    return replace(file, sample=part_of)
 
 
 __all__ = ["over_tests", "within"]
