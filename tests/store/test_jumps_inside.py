@@ -59,3 +59,31 @@ def test_the_moves_of_a_jump_test_in_a_test(
     if proposed:
         numbers = [float(n) for n in told[0]["reason"].rpartition("window: [")[2].split(" s")[0:1]]
         assert numbers[0] == pytest.approx(float(proposed[1:].split(" s")[0]), abs=2)
+
+
+@pytest.mark.parametrize(
+    ("size", "length_s", "window", "told"),
+    [
+        (1.0, 50, "", True),
+        (1.0, 50, ", window: [90 s, 1199 s]", False),
+        (0.8, 50, "", False),  # the same probe shows the same moves
+        (-1.0, 50, "", False),
+        (1.0, 1100, "", False),  # comes back long after the jump test that is known
+    ],
+)
+def test_moves_that_come_again_at_the_head_of_another_test(
+    store: Store, campaign: Path, size: float, length_s: int, window: str, told: bool
+) -> None:
+    with_a_jump(campaign, 30, ", window: [81 s, 1199 s]")
+    log, t = daq(), np.arange(1200)
+    log["main"]["Z"] += size * ((t >= 35) & (t < 35 + length_s))
+    write_log(campaign.parent / "raw/two_a.npz", log)
+    text = campaign.read_text(encoding="utf-8")
+    assert "{id: two" in text
+    campaign.write_text(text.replace("{id: two", "{id: two" + window), encoding="utf-8")
+    found = [x for x in ingest(store, campaign).losses if "of the jump test jump lie in this test" in x["reason"]]
+    assert [x["test"] for x in found] == (["two"] if told else [])
+    if told:
+        assert found[0]["reason"].startswith("moves as those of the jump test jump lie in this test")
+        assert "in raw/two_a.npz" in found[0]["reason"]
+        assert float(found[0]["reason"].rpartition("window: [")[2].split(" s")[0]) == pytest.approx(85, abs=2)

@@ -79,7 +79,7 @@ def tidy_tests(making: Making, campaign: Campaign, plans: Sequence[TestPlan], le
                 _add_rows(layer, test, making)
                 note_courses(note, test)
                 note_verdicts(note, test)
-                tell_jumps_inside(plan, test.where, test.clocks, making.calibrations)
+                tell_jumps_inside(making.store, plan, test.where, test.clocks, making.calibrations)
             tell_unscaled(making.store, plan)
             note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
