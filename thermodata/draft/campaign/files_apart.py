@@ -19,6 +19,7 @@ from thermodata.draft.folder.saved_twice import saved_once
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.probes.jumps import jump_of
 from thermodata.draft.times.date_order import with_orders_told
+from thermodata.draft.times.year_order import with_years_told
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +40,7 @@ def files_apart(folder: Path, found: Scan) -> FilesApart:
     found, unread = _table_apart(folder, found)
     found = saved_once(lists_apart(folder, found))
     logs, through = parted_by_lists(found.logs, [times_listed(folder, p) for p in found.others])
-    found = replace(found, logs=with_their_sensors(with_orders_told(folder, logs)))
+    found = replace(found, logs=with_their_sensors(with_orders_told(folder, with_years_told(folder, logs))))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, described = with_sensors_described(folder, found)
     found, legends = with_legends(folder, found)

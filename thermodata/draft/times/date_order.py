@@ -47,7 +47,7 @@ def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ..
             told = None
         against = None if told is None else next((w for f in files if (w := _contradicts(folder, f, told[0]))), None)
         if told is not None and against is None:
-            made |= {id(f): _told(folder, f, told[0], f"{told[1]}{_either_way(files)}") for f in files}
+            made |= {id(f): told_by(folder, f, told[0], f"{told[1]}{_either_way(files)}") for f in files}
         elif against is not None:
             made |= {id(f): _doubted(f, against) for f in files}
     return tuple(made.get(id(f), f) for f in logs)
@@ -157,7 +157,7 @@ def _order_of(folder: Path, file: RawFile) -> str | None:
     fits = []
     for order in _ORDERS:
         try:
-            again = described(reader(file.reader), folder / file.path, _declared(file, order).source)
+            again = described(reader(file.reader), folder / file.path, declared(file, order).source)
         except ThermodataError:
             continue
         if again.start_ns is not None and again.start_ns == file.recording.start_ns:
@@ -169,16 +169,17 @@ def _format(order: str) -> dict[str, Any]:
     return {"time": {"format": order}}
 
 
-def _declared(file: RawFile, order: str) -> RawFile:
+def declared(file: RawFile, order: str) -> RawFile:
     return replace(file, table=merged(file.table or {}, _format(order)))
 
 
-def _told(folder: Path, file: RawFile, order: str, why: str) -> RawFile:
-    """The file as it is with this order. It was looked at as the first of them."""
+def told_by(folder: Path, file: RawFile, order: str, why: str, question: str = _EITHER) -> RawFile:
+    """The file as it is with this order, told instead of asked. It was looked at as the first of them. question: how
+    that begins."""
     asked = tuple(
-        FileQuestion(why, _format(order), a.times, told=True) if a.ask.startswith(_EITHER) else a for a in file.asked
+        FileQuestion(why, _format(order), a.times, told=True) if a.ask.startswith(question) else a for a in file.asked
     )
-    file = replace(_declared(file, order), asked=asked)
+    file = replace(declared(file, order), asked=asked)
     if order == _ORDERS[0] or file.like:
         return file
     again = described(reader(file.reader), folder / file.path, file.source)
