@@ -218,3 +218,33 @@ def test_a_message_without_a_publish_time_dates_no_recording(tmp_path: Path, wri
     path = write(tmp_path / "a.mcap", messages, publish=lambda t: 0 if t == T0 else t)
     recording = read(path, Source(options={"time": "publish_time"}))[0]
     assert (recording.clock, recording.start_ns) == ("absolute", T0 + 10**9)
+
+
+@pytest.mark.parametrize(
+    ("off_s", "wander_s", "told"),
+    [
+        (427, 0, "427 s before the log times"),
+        (-1800, 0, "1800 s behind the log times"),
+        (30, 0, None),  # a delay
+        (427, 60, None),
+        (30 * 86_400, 0, None),  # a date of something else
+    ],
+)
+def test_two_clocks_that_keep_their_distance_are_told(
+    tmp_path: Path, write: Any, read: Any, off_s: int, wander_s: int, told: str | None
+) -> None:
+    def publish(t: int) -> int:
+        return t - (off_s + wander_s * (t // 10**9 % 2)) * 10**9
+
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * 10**9, {"k": k}) for k in range(50)], publish=publish)
+    notes = [n for n in read(path)[0].notes if "two clocks" in n]
+    assert bool(notes) is (told is not None)
+    assert told is None or (told in notes[0] and "options: {time: publish_time}" in notes[0])
+
+
+@pytest.mark.parametrize(("off_s", "told"), [(427, True), (20, False)])
+def test_stamps_of_another_clock_are_told(tmp_path: Path, write: Any, read: Any, off_s: int, told: bool) -> None:
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * STEP + off_s * 10**9, stamped(k)) for k in range(50)])
+    notes = [n for n in read(path)[0].notes if "two clocks" in n]
+    assert bool(notes) is told
+    assert not told or "options: {time: header.stamp}" in notes[0]

@@ -12,7 +12,7 @@ from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS
 from thermodata_reader_mcap.signals.found_topics import FoundTopics
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options
-from thermodata_reader_mcap.signals.stamps.stamps_apart import first_stamp, rushed, stamps_note, unit_of
+from thermodata_reader_mcap.signals.stamps.stamps_apart import first_stamp, publish_notes, stamps_note, unit_of
 
 EARLIEST_NS = 10**17  # log times before 1973 count from the start of the recording
 
@@ -43,7 +43,7 @@ def recording_clock(chosen: Options, batches: dict[Channel, Batch], found: Found
         relative, start = (False, min(dated)) if dated else (True, start)
     notes = ["log times count from the start of the recording"] if relative else []
     if chosen.time == LOG:
-        notes += [*told, *([] if relative else rushed(used))]
+        notes += [*told, *([] if relative else publish_notes(used))]
     return Clock(start, relative, notes)
 
 

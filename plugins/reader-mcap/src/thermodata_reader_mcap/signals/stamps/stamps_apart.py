@@ -21,6 +21,7 @@ _LOOKED_AT = 200  # messages of a topic
 _APART_NS = 1_000_000_000  # that a latency changes by less than
 _NEAR_NS = 7 * 86_400 * 10**9  # of the log times a stamp of its message is; another date is of something else
 _DATED_NS = 940_000_000 * 10**9  # from 1999 on
+_CLOCKS_APART_NS = 60 * 10**9  # beyond which no delay keeps two times apart
 _RUSHED = 2  # times that publish times span log times, which no recorder's delays do
 _RISING = 0.9  # of the steps from message to message, in a stamp of theirs; a job's start stands still
 _MOST = 2**63  # beyond which a whole number is no time, and may be no float: JSON's have as many digits as they like
@@ -30,8 +31,8 @@ _UNITS = {"unix": "s", "unix_ms": "ms", "unix_us": "us", "unix_ns": "ns"}
 def stamps_note(
     topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], relative: bool = False
 ) -> str | None:
-    """A note where a topic's stamps do not keep one distance from its log times, or these count from a start (relative)
-    and the stamps have a date; None where neither is so, or there are none."""
+    """A note where a topic's stamps do not keep one distance from its log times, or one that no delay explains, or
+    these count from a start (relative) and the stamps have a date; None where none is so, or there are none."""
     paths = [leaf.path for leaf in topic.leaves if leaf.dtype != "str"]
     rows = list(_messages(batches, made))
     found = _stamp(paths)
@@ -41,9 +42,10 @@ def stamps_note(
     if relative:
         return _note_of_dates(topic.name, name, unit, away)
     spread = int(np.ptp(np.array(away, np.float64))) if away else 0
-    if spread <= _APART_NS:
-        return None
     declared = name if unit is None else f"{name}, time_unit: {unit}"
+    if spread <= _APART_NS:
+        apart = _note_of_clocks(f"{name} is", np.array(away, np.float64), declared)
+        return None if apart is None else f"topic '{topic.name}': {apart}"
     return (
         f"topic '{topic.name}': the times that are read are log times, and {name} changes its distance from them by "
         f"{spread / 1e9:.3g} s; declare options: {{time: {declared}}} if the recorder wrote in bursts"
@@ -58,20 +60,37 @@ def _note_of_dates(topic: str, name: str, unit: str | None, away: Sequence[float
     return f"topic '{topic}': {name} has dates, which the log times have not; declare options: {{time: {declared}}}"
 
 
-def rushed(batches: Sequence[Batch]) -> list[str]:
+def publish_notes(batches: Sequence[Batch]) -> list[str]:
     """A note where the publish times of a recording span far more than its log times: it was converted, and the log
-    times are of the conversion."""
+    times are of the conversion; or where the two are of clocks that differ."""
     pairs = [batch.times() for batch in batches]
     logs, published = (np.concatenate([np.empty(0, np.uint64), *(pair[k] for pair in pairs)]) for k in (0, 1))
     if logs.size < 2 or not published.all():
         return []
     short, long = (int(np.ptp(np.quantile(t.astype(np.float64), (0.05, 0.95)))) for t in (logs, published))
     if long < _RUSHED * short or long - short < _APART_NS:
-        return []
+        apart = _note_of_clocks(
+            "publish times are", logs.astype(np.float64) - published.astype(np.float64), "publish_time"
+        )
+        return [] if apart is None else [apart]
     return [
         f"log times span {short / 1e9:.3g} s, publish times {long / 1e9:.6g} s: the file looks converted, and its log "
         "times are of the conversion; declare options: {time: publish_time}"
     ]
+
+
+def _note_of_clocks(others: str, behind_ns: Float1D, declared: str) -> str | None:
+    """A note where other times keep one distance from the log times that is no delay. behind_ns: of the log times,
+    shape (n,)."""
+    if not behind_ns.size or np.ptp(np.quantile(behind_ns, (0.05, 0.95))) > _APART_NS:
+        return None
+    off = float(np.median(behind_ns))
+    if not _CLOCKS_APART_NS < abs(off) < _NEAR_NS:
+        return None
+    return (
+        f"{others} {abs(off) / 1e9:.6g} s {'before' if off > 0 else 'behind'} the log times, which are read, all the "
+        f"way: two clocks; declare options: {{time: {declared}}} if the other one is right"
+    )
 
 
 def first_stamp(options: Options, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> int | None:
