@@ -36,6 +36,28 @@ def test_numbers_of_files_that_ran_at_once_are_none_of_parts(tmp_path: Path) -> 
     assert len(draft_files(tmp_path).draft.tests) == 4
 
 
+@pytest.mark.parametrize(
+    ("word", "start", "tests"),
+    [
+        ("Fortsetzung", "08:50:40", 3),
+        ("cont", "08:50:40", 3),
+        ("suite2", "08:50:40", 3),
+        ("pokračování", "08:50:40", 3),
+        ("Fortsetzung", "08:20:00", 4),  # began while the other ran
+        ("Kontrolle", "08:50:40", 4),
+    ],
+)
+def test_a_word_says_that_a_recording_goes_on(tmp_path: Path, word: str, start: str, tests: int) -> None:
+    write(tmp_path, "P1_3000.asc", "07.04.2026 08:00:00", 1200)
+    write(tmp_path, "P2_6000.asc", "08.04.2026 08:00:00", 600)
+    write(tmp_path, f"P2_6000_{word}.asc", f"08.04.2026 {start}", 600)
+    write(tmp_path, "P3_9000.asc", "09.04.2026 08:00:00", 1200)
+    drafted = draft_files(tmp_path).draft.tests
+    assert len(drafted) == tests
+    if tests == 3:
+        assert [t.id for t in drafted] == ["P1_3000", "P2_6000", "P3_9000"]
+
+
 def seconds(folder: Path, name: str, begin_s: float, rows: int = 120) -> None:
     """A log without a date, 10 s from row to row."""
     values = [f"{begin_s + 10 * i:.1f},{20 + (begin_s + 10 * i) / 900:.3f}" for i in range(rows)]

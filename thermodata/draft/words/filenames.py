@@ -11,7 +11,14 @@ from thermodata.archive.members import ARCHIVES
 from thermodata.reader.files.rotated import as_unpacked, unrotated
 
 _PIECE = re.compile(r"[_\-. ]+")
-_PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
+_GOES_ON = (
+    "fortsetzung|forts|cont|contd|continued|continuation|suite|seguito|continuaci[oó]n|pokra[cč]ov[aá]n[ií]|続き|续"
+)
+_PART_WORD = re.compile(
+    r"[_\-. ]\(?(?:(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}"
+    rf"|(?:{_GOES_ON})[_\-. ]?\d{{0,5}})\)?$",
+    re.IGNORECASE,
+)
 _PIECES_COST = 0.1
 _PART_NUMBER = re.compile(r"(?:[_\-. ]\(?|\()\d{1,5}\)?$")
 
@@ -39,7 +46,8 @@ def normal(test: str) -> str:
 
 
 def without_part(name: str) -> str:
-    """A name without the number of a part behind it: 'run' of 'run_2', 'log' of 'log.part3'."""
+    """A name without the number of a part behind it, or the word of one that goes on: 'run' of 'run_2', 'log' of
+    'log.part3', 'S3000' of 'S3000_cont'."""
     return next((s for strip in (_PART_WORD, _PART_NUMBER) if (s := strip.sub("", name)) and s != name), name)
 
 
