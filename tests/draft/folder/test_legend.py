@@ -61,6 +61,40 @@ def test_numbers_one_word_and_other_names_are_none(tmp_path: Path, say: Say, row
     assert "says what signals are" not in text
 
 
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        (
+            [
+                "Setup of March",
+                "",
+                "Temperatures:",
+                "  T01 Spindellager vorn",
+                "  T02 Maschinenbett",
+                "  T03 Hallenluft",
+            ],
+            True,
+        ),
+        (["Three runs, probes in volts. Ask Jan.", "T01 front spindle bearing; T02 = bed; T03: hall air. Enjoy"], True),
+        (["Wir haben am Montag angefangen.", "Fühler: T01 = Spindellager vorn, T02 = Bett, T03 = Hallenluft"], True),
+        (["What happened:", "T01 broke at noon, T02 fine since, T03 swapped with T01", "then lunch"], False),
+        (["Notes of Jan", "T01 bed, T02 column", "and no more"], False),  # two
+        (["Notes", "T01 bed, T02 column, T03 hall", "on Tuesday we moved T01", "T01 spindle bearing front"], False),
+        (["Notes", "T01 bed 3000 rpm then, T02 column 20 degC, T03 hall 3 h long", "and more"], False),
+        (["Runs", "A01 bed, A02 column, A03 hall", "and more"], False),
+    ],
+)
+def test_names_in_the_prose_of_a_note_are_guessed_by(
+    tmp_path: Path, say: Say, lines: Sequence[str], told: bool
+) -> None:
+    _logs(tmp_path)
+    (tmp_path / "note.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places == ({"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"} if told else dict.fromkeys(places))
+    assert ("# note: note.txt says what signals are: T01 is" in text) is told
+    assert "sure:" not in text
+
+
 TOLD = {"T01": ("spindle.bearing.front", "°F", None), "T02": ("bed", "°F", None), "T03": ("tcp", "mm", "X")}
 
 

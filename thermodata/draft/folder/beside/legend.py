@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.beside.lists_in_texts import bracketed, in_prose, listed
 from thermodata.draft.folder.beside.said_twice import begins_with_a_time, of_names
 from thermodata.draft.folder.beside.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, readable
 from thermodata.draft.folder.scan import Scan
@@ -29,8 +30,6 @@ _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3
 _SHOWN = 4
 _OWN = ("quantity", "axis", "at", "sign")
 _ONCE = 3  # of so many names one may be named again: a list of what happened names most
-_LISTED = re.compile(r"\W*(?P<name>[\w.]+)\s*(?:->|=>|→|=|:)\s*(?P<text>\S.*)")  # a line of 'CH1 -> bearing [degC], X'
-_BRACKETED = re.compile(r"\W*(?P<text>[^():=]*\w)\s*\((?P<name>[\w.]+)\)\s*[:=]\s*(?P<more>\S.*)")
 _AXES = frozenset("XYZUVWABC")
 _EITHER = frozenset("ABC")
 _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)?(?P<axis>[XYZ])$", re.IGNORECASE)
@@ -82,7 +81,7 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
         path = readable(folder / file)
         if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
-        lists = [] if path.suffix.lower() in WORKBOOKS else [bracketed(path, _MOST_ROWS), listed(path, _MOST_ROWS)]
+        lists = [] if path.suffix.lower() in WORKBOOKS else _lists_of(path, names)
         for rows in (*grids_of(path, _MOST_ROWS), *lists):
             if (legend := _legend(file, rows, names, tests)) is not None:
                 if file in books and any(s.own for s in legend.says.values()):
@@ -179,26 +178,14 @@ def _names_axis(text: str, axis: str) -> bool:
     return re.search(rf"(?<![^\W\d_]){axis}(?![^\W\d_])", text) is not None
 
 
-def listed(path: Path, most: int) -> list[list[str]]:
-    """The lines of a list ('CH1 -> spindle bearing [degC]') as rows of a name and words; none where few are such."""
+def _lists_of(path: Path, names: Set[str]) -> list[list[list[str]]]:
+    """What a text says of signals that are called so, as rows: each way to read it."""
     try:
         text, _, _ = decode(path.read_bytes())
     except (ThermodataError, OSError):
         return []
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    rows = [[m["name"], m["text"].strip()] for line in lines if (m := _LISTED.fullmatch(line))]
-    return rows if len(lines) <= most and 2 * len(rows) > len(lines) else []
-
-
-def bracketed(path: Path, most: int) -> list[list[str]]:
-    """The lines of a text, among any others, that have a name in brackets ('top of the bed (T04): bed.top') as rows of
-    a name, the words before it and those behind; none where few are such."""
-    try:
-        text, _, _ = decode(path.read_bytes())
-    except (ThermodataError, OSError):
-        return []
-    named = [m for line in text.splitlines()[:most] if (m := _BRACKETED.fullmatch(line.strip()))]
-    return [[m["name"], m["text"].strip(), m["more"].strip()] for m in named] if len(named) >= _FEWEST else []
+    lines = [line.strip() for line in text.splitlines()]
+    return [bracketed(lines, _MOST_ROWS), listed(lines, _MOST_ROWS), in_prose(lines[:_MOST_ROWS], names)]
 
 
 def _is_unit(cell: str) -> bool:
