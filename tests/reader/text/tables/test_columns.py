@@ -80,3 +80,23 @@ def test_marks_that_may_be_either_are_asked() -> None:
 def test_the_mark_of_a_column_is_looked_for_among_its_fractions() -> None:
     """Which may stand behind any number of whole numbers."""
     assert find_decimal([["7"] * 5000 + ["7,5"]], ";", "a.csv") == ","
+
+
+HIGH = [f"{80 + k % 9}.{600 + k % 7}" for k in range(500)]
+
+
+@pytest.mark.parametrize("told", ["0.000", "-0.125", "7.25", "1234"])
+def test_one_number_far_below_tells_that_points_begin_fractions(told: str) -> None:
+    """An axis that runs for hours before it rests, at three decimals."""
+    assert find_decimal([HIGH, [*HIGH, told]], ";", "a.csv") == "."
+
+
+@pytest.mark.parametrize("silent", ["0", "950", "81.000", "-9.125", "---"])
+def test_numbers_far_below_that_may_be_either_are_asked_all_the_same(silent: str) -> None:
+    with pytest.raises(QuestionError, match="points that may part thousands"):
+        find_decimal([HIGH, [*HIGH, silent]], ";", "a.csv")
+
+
+def test_a_comma_far_below_points_that_may_part_thousands_is_asked_as_both_marks() -> None:
+    with pytest.raises(QuestionError, match="decimal point and with a decimal comma"):
+        find_decimal([HIGH, [*HIGH, "7,25"]], ";", "a.csv")

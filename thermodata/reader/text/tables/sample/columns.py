@@ -73,26 +73,18 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     cells where the comma is the decimal mark), and each of them may part thousands or begin a fraction.
     """
     columns = list(columns)
-    cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
+    cells = _fractions(columns, _FRACTIONS)
     if delimiter != ",":
-        try:
-            mark = decimal_mark(cells)
-        except FormatError as error:
-            raise QuestionError(
-                error.what,
-                where=where,
-                expected=error.expected,
-                got=error.got,
-                hint=error.hint,
-                ask=f"decimal: '.' or ','? {error.got}; the other then parts thousands",
-                declare={"decimal": UNKNOWN},
-                meanwhile={"decimal": "."},
-            ) from None
-        points = [c for c in map(clean, cells) if "." in c and is_number(c)]
-        doubtful = delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points)
+        mark = _one_mark(cells, where)
+        if delimiter != ";" or mark != "." or not _all_one_group(cells):
+            return mark
+        # a column that stays high for hours may reach the 0.000 of its rest far below
+        every = _fractions(columns)
+        mark = _one_mark(every, where)
         # a thousand that is not parted proves that points don't part thousands here
-        if doubtful and not any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column):
-            raise _either("points", points[0], "semicolons", where)
+        bare = any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column)
+        if mark == "." and _all_one_group(every) and not bare:
+            raise _either("points", _with_points(every)[0], "semicolons", where)
         return mark
     commas = [c for c in map(clean, cells) if "," in c and to_float(c, ",") is not None]
     if not commas:
@@ -102,6 +94,37 @@ def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -
     if all(_GROUPED.fullmatch(c) for c in commas):
         raise _either("commas", f'"{commas[0]}"', "commas", where)
     return ","
+
+
+def _fractions(columns: Sequence[Sequence[str]], most: int | None = None) -> list[str]:
+    """The cells with a mark, of each column the first `most`."""
+    return [c for column in columns for c in [c for c in column if "," in c or "." in c][:most]]
+
+
+def _one_mark(cells: Sequence[str], where: str) -> str | None:
+    """The decimal mark of cells; QuestionError where both marks occur."""
+    try:
+        return decimal_mark(cells)
+    except FormatError as error:
+        raise QuestionError(
+            error.what,
+            where=where,
+            expected=error.expected,
+            got=error.got,
+            hint=error.hint,
+            ask=f"decimal: '.' or ','? {error.got}; the other then parts thousands",
+            declare={"decimal": UNKNOWN},
+            meanwhile={"decimal": "."},
+        ) from None
+
+
+def _with_points(cells: Sequence[str]) -> list[str]:
+    return [c for c in map(clean, cells) if "." in c and is_number(c)]
+
+
+def _all_one_group(cells: Sequence[str]) -> bool:
+    """Whether each number with a point could be thousands: one group of three digits, no zero before it."""
+    return all(_ONE_GROUP.fullmatch(c) for c in _with_points(cells))
 
 
 def ask_for_thousands(columns: Mapping[str, Sequence[str]], decimal: str | None, where: str) -> None:
