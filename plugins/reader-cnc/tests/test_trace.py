@@ -12,6 +12,7 @@ from thermodata_reader_cnc.sinumerik import trace_records
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.finding.registry import head
+from thermodata.reader.times.zone import NO_ZONE
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 
@@ -91,6 +92,20 @@ def test_a_start_that_is_no_date_makes_times_relative_and_entities_are_refused(t
     bomb = xml().replace("<traceSession", '<!DOCTYPE t [<!ENTITY a "aa">]><traceSession', 1)
     with pytest.raises(FormatError, match="entities"):
         load(Reader(), written(tmp_path, bomb, "bomb.xml"), Source())
+
+
+@pytest.mark.parametrize(
+    ("start", "zone", "open_"),
+    [
+        ("2026-03-02T09:00:00", None, True),
+        ("2026-03-02T09:00:00", "Europe/Prague", False),
+        ("2026-03-02T09:00:00Z", None, False),
+        ("0", None, False),
+    ],
+)
+def test_a_start_without_a_zone_says_so(tmp_path: Path, start: str, zone: str | None, open_: bool) -> None:
+    recording = Reader().describe(written(tmp_path, xml(start=start), "trace.xml"), Source(timezone=zone))
+    assert any(NO_ZONE in note for note in recording.notes) == open_
 
 
 def test_every_sample_is_counted(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +18,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.file.locate import row_at
-from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.text.times.one_cell import timestamp
-from thermodata.reader.times.zone import NAT
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.sinumerik import trace_records
 from thermodata_reader_cnc.sinumerik.trace_grid import LOOK, Group, columns_of, counted, groups_of, rows
@@ -101,20 +100,31 @@ def _layouts(frames: list[Frame]) -> dict[tuple[tuple[str, ...], ...], list[Grou
     return layouts
 
 
-def _start_ns(header: dict[str, str], source: Source) -> int | None:
-    """UTC of a frame's startTime; None where it is no date."""
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """UTC of a frame's startTime; notes: on a local time, of a zone that nobody says."""
+
+    ns: int
+    notes: tuple[str, ...] = ()
+
+
+def _start(header: dict[str, str], source: Source) -> _Start | None:
+    """None where it is no date."""
     text = header.get("startTime", "")
     for form in time_pattern.DATETIME.values():
         ns = timestamp.parse_one(text, form)
         if ns != NAT:
-            return ns if time_pattern.is_zoned(text, form) else int(LocalClock(source.timezone).utc(np.array([ns]))[0])
+            if time_pattern.is_zoned(text, form):
+                return _Start(ns)
+            utc, notes = local_to_utc_ns(np.array([ns], np.int64).view("datetime64[ns]"), source.timezone)
+            return _Start(int(utc[0]), tuple(notes) if source.timezone is None else ())
     return None
 
 
 def describe(path: Path, source: Source) -> Recording:
     """Signals and start of a trace, by its head."""
     frames = _frames_by_kind(path)
-    start = _start_ns(frames[0].header, source)
+    start = _start(frames[0].header, source)
     signals, notes = [], []
     for frame, groups in zip(frames, _layouts(frames).values(), strict=True):
         for group in groups:
@@ -128,11 +138,13 @@ def describe(path: Path, source: Source) -> Recording:
                     "times are kept"
                 )
     told = frames[0].header.get("startTime", "")[:80]
-    notes.append(_CLOCK if start is not None else f"startTime '{told}' is no date: times are relative")
+    notes += [f"startTime '{told}' is no date: times are relative"] if start is None else [_CLOCK, *start.notes]
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4096))
         complete = _CLOSED.search(file.read()) is not None
-    return Recording(tuple(signals), "relative" if start is None else "absolute", start, complete, tuple(notes))
+    if start is None:
+        return Recording(tuple(signals), "relative", None, complete, tuple(notes))
+    return Recording(tuple(signals), "absolute", start.ns, complete, tuple(notes))
 
 
 class _Frames:
@@ -142,7 +154,7 @@ class _Frames:
         self.name, self.source = path.name, source
         frames = _frames_by_kind(path)
         self.layouts = _layouts(frames)
-        self.relative = _start_ns(frames[0].header, source) is None
+        self.relative = _start(frames[0].header, source) is None
         self.frame: Frame | None = None
         self.groups: list[Group] = []
         self.start, self.drops = 0, False
@@ -154,13 +166,13 @@ class _Frames:
         self.frame, self.drops = frame, False
         known = self.layouts.get(_kind(frame))
         self.groups = [Group(g.stream, g.servo, g.names, g.step_s) for g in known or ()]
-        start = None if self.relative else _start_ns(frame.header, self.source)
+        start = None if self.relative else _start(frame.header, self.source)
         if known is None:
             yield Loss(where, reason="a frame with other signals than those that the first look met; it is not read")
         elif start is None and not self.relative:
             self.groups = []
             yield Loss(where, reason=f"startTime '{frame.header.get('startTime', '')[:80]}' is no date; it is not read")
-        self.start = start or 0
+        self.start = 0 if start is None else start.ns
         count = frame.header.get("dropOuts", "0").strip()
         if count not in ("", "0", "false", "False"):
             self.drops = True
