@@ -6,6 +6,9 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
+from thermodata.calibration.platinum import R0_OHM, degrees
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity.guessed import OF_SENSOR, Guess, range_text
 from thermodata.draft.signals.values import Values
@@ -23,6 +26,8 @@ _SIGNAL_MA = (3.5, 21.0)  # NAMUR NE 43: what a sensor sends, with the marks of 
 # places of parts whose current is that of a drive, and of ones that have none
 _DRIVES = frozenset({"motor", "spindle", "pump", "fan", "drive"})
 _OF_SENSORS = frozenset({"bearing", "bed", "column", "table", "hall", "floor", "outside", "window", "probe", "coolant"})
+_PLATINUM = re.compile(r"(?:pt|rtd) ?\d*\b")
+_COLD_C, _HOT_C = -15.0, 130.0  # that a thermometer on a machine reads
 _SURELY = ("temperature", "rotational_speed")  # whose units nothing else has, whatever the name says
 
 
@@ -172,6 +177,21 @@ def milliamperes_may_be_of_a_sensor(signal: Called) -> Guess | None:
     return None
 
 
+def ohms_may_be_of_a_platinum_thermometer(signal: Called) -> Guess | None:
+    """By the name, or by values that one has between the frost of a hall and the heat of a motor."""
+    if not signal.likely("resistance") or "resistance" in signal.named:
+        return None
+    fits = None if signal.values is None else next((k for k in R0_OHM if _of_platinum(k, signal.values)), None)
+    if fits is None and "temperature" not in signal.named and not _PLATINUM.match(signal.own):
+        return None
+    seen = f" ({range_text(signal.values)})"
+    asked = f"calibration? what turns its ohms into degC?{seen} a curve (kind: pt100 to pt1000), or kind: linear"
+    if fits is not None:
+        curve = f"{{kind: {fits}}}"
+        asked = f"calibration? a {fits.capitalize()}?{seen} then calibration: pt, and pt: {curve} under calibrations"
+    return signal.asked("temperature", asked, "name" if fits is None else "values", "unit")
+
+
 def a_unit_against_the_name_is_asked(signal: Called) -> Guess | None:
     first = signal.possible[0]
     if not signal.against or first in _SURELY:
@@ -205,10 +225,17 @@ RULES: tuple[Callable[[Called], Guess | None], ...] = (
     volts_of_a_probe_are_a_displacement,
     volts_are_of_something,
     milliamperes_may_be_of_a_sensor,
+    ohms_may_be_of_a_platinum_thermometer,
     a_unit_against_the_name_is_asked,
     a_length_may_be_of_a_probe_or_of_an_axis,
     else_it_is_the_likeliest_of_its_unit,
 )
+
+
+def _of_platinum(kind: str, values: Values) -> bool:
+    """Whether readings in ohm are those of a platinum thermometer on a machine."""
+    low, high = degrees(np.array(values.usual), R0_OHM[kind])
+    return bool(low >= _COLD_C and high <= _HOT_C)
 
 
 def _of_a_probe(own: str) -> bool:

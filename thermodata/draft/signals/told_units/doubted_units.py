@@ -71,6 +71,8 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
     asks = _ASKS.get(found.quantity)
     if found.unit is None or values.n == 0 or asks is None:
         return found
+    if found.quantity == "temperature" and not units.converts(found.unit, "temperature"):
+        return found  # of ohms, whose curve is asked
     asked = asks(found, found.unit, text, values)
     return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
 
