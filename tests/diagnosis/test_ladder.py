@@ -43,6 +43,21 @@ def test_a_rule_that_is_outweighed_is_not_asked() -> None:
     assert (fall.holds, fall.asked) == (True, False)
 
 
+def test_what_a_claim_breaks_is_outweighed_by_the_locked_tests() -> None:
+    """A claim whose own rung is denied contradicts itself: `worth` missed its limit, and the locked tests outweighed
+    it."""
+    one, held = scored(evidence=80.0, after=0.9), measure(spread=100.0)
+    open_, claimed = ({r.name: r for r in rungs(one, held, "um", claimed=how)} for how in (False, True))
+    broken = [name for name, r in open_.items() if not r.holds]
+    assert "worth" in broken
+    for name in broken:
+        told = claimed[name]
+        assert (told.holds, told.asked, told.fails) == (True, False, None)
+        assert told.asks == f"{open_[name].asks}; not asked, for the locked tests outweigh it"
+        assert (told.value, told.limit) == (open_[name].value, open_[name].limit)
+    assert all(claimed[name] == r for name, r in open_.items() if r.holds)
+
+
 def test_the_rung_of_the_probability_is_of_what_the_row_states_one_of() -> None:
     """A row that is told as another of the same equation has the rules of that, and its own probability."""
     one, other = scored(evidence=400.0, after=0.5), scored(evidence=80.0, after=0.9)

@@ -18,21 +18,27 @@ from thermodata.schema.answers.candidate import CandidateCourse, LeftOut, Rung
 _QUANTILES = 41
 
 
-def rungs(scored: Scored, measure: Measure, unit: str, sure: Scored | None = None) -> list[Rung]:
+OUTWEIGHED = "; not asked, for the locked tests outweigh it"
+
+
+def rungs(
+    scored: Scored, measure: Measure, unit: str, sure: Scored | None = None, *, claimed: bool = False
+) -> list[Rung]:
     """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold. What is
     beside the effects as the model has them is no claim: chance and probability are of effects that act freely.
-    sure: of which the probability is told, where it is another of the same equation."""
+    sure: of which the probability is told, where it is another of the same equation. claimed: whether it is claimed all
+    the same; then what it breaks is outweighed by the locked tests."""
     return [
         Rung(
             name=rule.name,
-            asks=rule.asks,
+            asks=rule.asks + (OUTWEIGHED if claimed and not rule.holds else ""),
             value=float(rule.value) if np.isfinite(rule.value) else None,
             limit=float(rule.limit),
             unit=rule.unit,
             at=rule.at,
-            holds=bool(rule.holds),
-            asked=bool(rule.asked),
-            fails=None if rule.holds else rule.fails,
+            holds=bool(rule.holds or claimed),
+            asked=bool(rule.asked and (rule.holds or not claimed)),
+            fails=None if rule.holds or claimed else rule.fails,
         )
         for rule in (*rules(scored, measure, unit), of_probability(scored, sure or scored))
         if not (scored.as_modelled and rule.name in ("chance", "probability"))

@@ -71,7 +71,7 @@ def candidate(rank: int, told: Told, outcome: Outcome, data: Dataset, *, first: 
         also_on=dict(scored.also_on),
         why=why(told, outcome),
         evidence=float(one.evidence) if np.isfinite(one.evidence) and not one.as_modelled else None,
-        rungs=ladder.rungs(one, measure, problem.unit, sure=told.sure),
+        rungs=ladder.rungs(one, measure, problem.unit, sure=told.sure, claimed=claimed),
         left_out=ladder.left_out(errors, problem),
         courses=ladder.courses(one, problem) if heads or refining else [],
     )
