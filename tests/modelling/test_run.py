@@ -15,6 +15,7 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.modelling import comparing, run
 from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
+from thermodata.modelling.on_locked import locked_errors
 from thermodata.modelling.remove import remove
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.candidate import with_candidate
@@ -282,8 +283,11 @@ def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(st
     save_diagnosis(store, parent.model, found)
     assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
     both = add(store, parent.model, 1, 2, plain=True)
-    assert (both.locked_rmse_um_before, both.locked_rmse_um_after) == (1.67, 0.53)
+    ((model,), _) = locked_errors(store, both.model)
+    assert both.locked_rmse_um_before == 1.67
+    assert both.locked_rmse_um_after == pytest.approx(model.rmse_um), "of the version itself, not what was foretold"
     assert both.locked_rmse_um_fitted == 2.1
+    assert find_model(store, both.model).result.locked_rmse_um_after == both.locked_rmse_um_after, "pages read it"
 
 
 def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store, spec: Spec) -> None:

@@ -486,7 +486,7 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
             (0.747, 2.73, 0.9),
             (None, None),
             "; locked tests 0.747 (2.73 refitted to all open tests) -> 0.900 um: with the model as it is fitted it is "
-            "less",
+            "less; this is of one lag for each effect: a version to which add gives second ones leaves what add tells",
         ),
         (
             (1.56, 0.777, 0.83),
@@ -756,6 +756,10 @@ def test_errors_of_claims_on_other_data_or_of_another_fit_are_none_of_the_versio
     rows = {r.word: r for r in error_rows(lagged)}
     assert list(rows) == ["locked", "left-out", "verification", "fitted"]
     assert [word for word, r in rows.items() if r.foretold] == ["locked", "left-out"]
+    scored = {r.word: r for r in error_rows(dataclasses.replace(lagged, left_on_locked=1.23))}
+    assert [word for word, r in scored.items() if r.foretold] == ["left-out"]
+    assert (scored["locked"].before, scored["locked"].after) == (rows["locked"].before, 1.23)
+    assert scored["locked"].tested, "add scored this very version on the tests that were opened for its claim"
     head = headline_error(list(rows.values()))
     assert head is not None
     assert head.word == "verification", "none of those that are of another model"

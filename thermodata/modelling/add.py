@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.modelling.run import fit_once, load
+from thermodata.modelling.run import OfFit, fit_once, load
 from thermodata.modelling.versions.as_foretold import beside_foretold
 from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
+from thermodata.modelling.versions.on_locked import errors_on_locked
 from thermodata.modelling.versions.refitted_parent import on_the_same_tests
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
@@ -24,7 +26,6 @@ from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.effect.binding import Described
-    from thermodata.schema.answers.candidate import Candidate
     from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
     from thermodata.store.catalogue.models.fits import StoredModel
@@ -66,12 +67,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     added, of_response = _ids_and_notes(parent.spec, spec, old.data.channels)
     alike = on_the_same_tests(parent.spec, spec, old.data, before)
     notes = [*notes, *since, *of_response, *_twins(found, grown.names), *alike]
-    result = fit_once(store, spec, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
-    claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
-    all_taken = bool(claims) and {c.id for c in claims} <= set(grown.names)
-    if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:
-        return result
-    return _as_asked_of_locked(result, claims[0])
+    asked, of = _asked_of_locked(diagnosis, grown.names, old.data), parent.model
+    return fit_once(store, spec, read=old.data, parent=of, before=before, of_fit=asked, added=added, notes=notes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,10 +137,16 @@ def _ids_and_notes(parent: Model, grown: Model, channels: Mapping[str, Described
     return [i for i, _ in new], [note] if note else []
 
 
-def _as_asked_of_locked(result: FitResult, claim: Candidate) -> FitResult:
-    """With what the lock gave that was opened for all claims together, on these data: it is not opened again."""
-    told = ("before", "after", "fitted")
-    return result.model_copy(update={key: getattr(claim, key) for key in (f"locked_rmse_um_{when}" for when in told)})
+def _asked_of_locked(found: Diagnosis | None, names: Sequence[str], data: Dataset) -> OfFit | None:
+    """What is told of a fit on the locked tests, where they were opened on these data for all claims together, and all
+    are added: they are not opened again. found: of the parent. names: ids of what is added."""
+    claims = [c for c in found.candidates if c.claimed] if found is not None else []
+    all_taken = bool(claims) and {c.id for c in claims} <= set(names)
+    if found is None or not all_taken or found.data_version != data.data_version:
+        return None
+    if claims[0].locked_rmse_um_after is None:
+        return None
+    return partial(errors_on_locked, found=found, claim=claims[0])
 
 
 def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:

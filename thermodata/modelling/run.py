@@ -3,11 +3,11 @@ compared in `comparing`."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
 from thermodata.modelling.fit.model import fit_model
@@ -33,6 +33,9 @@ from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
     from thermodata.store import Store
+
+# more keys of a result, that its fit tells
+OfFit = Callable[[FittedModel, Dataset], Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -80,11 +83,12 @@ def fit_once(
     parent: str | None = None,
     before: list[Score] | None = None,
     read: Dataset | None = None,
+    of_fit: OfFit | None = None,
     **said: list[str],
 ) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
     `notes` of the result, which say as well where the model's name leads to a newer version. read: the data that its
-    caller looked at. DataChangedError where the data changed before it was kept."""
+    caller looked at. of_fit: tells more of the result. DataChangedError where the data changed before it was kept."""
     from thermodata.store.catalogue.models.fits import save_fit
     from thermodata.store.catalogue.models.looks import count_locked_look
 
@@ -107,7 +111,8 @@ def fit_once(
         *of_files,
         *_unlocked(looked_at),
     ]
-    result = result.model_copy(update={**said, "notes": notes})
+    more = of_fit(fitted, data) if of_fit is not None else {}
+    result = result.model_copy(update={**said, **more, "notes": notes})
     with store.reader() as con:  # before a look is counted
         check(con)
     if looked_at:  # first: a look that is counted for a fit that nobody kept does less harm than one that is not

@@ -86,6 +86,7 @@ def collect(store: Store, ref: str) -> ReportData:
         reason=reason.shown,
         reason_of_fit=reason.of_fit,
         reason_but_for=reason.but_for,
+        left_on_locked=stored.result.locked_rmse_um_after,
         offered=reason.offered,
         by_choice=_by_choice(store, chain),
         weak=weak_spots_of(loaded, (reason.said, diagnosis)),

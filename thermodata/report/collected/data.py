@@ -111,7 +111,8 @@ class ReportData:
 
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
     reason_of_fit: whether its claims were confirmed in this very fit: on these data and tests, with no other effect.
-    reason_but_for: second lags that came along with its claims, where this fit is theirs but for these.
+    reason_but_for: second lags that came along with its claims, where this fit is theirs but for these. left_on_locked:
+    what this version itself leaves on the locked tests that were opened for its claims; None where nobody scored it.
     by_choice: what locked tests said of what the last version added, asked of the version before by somebody's choice.
     offered: whether all that was added since are refinements that it offered.
     units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
@@ -149,6 +150,7 @@ class ReportData:
     driven: Mapping[str, str] = field(default_factory=dict)
     reason_of_fit: bool = True
     reason_but_for: tuple[str, ...] = ()
+    left_on_locked: float | None = None
     offered: bool = False
     by_choice: tuple[Confirmed, ...] = ()
 

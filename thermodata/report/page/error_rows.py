@@ -102,8 +102,9 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
             refitted = "" if own == before else f"{before:.3g} {of.unit} refitted to all open tests"
             if claims:
                 told, other = refitted and f"before: {refitted}", before if refitted else None
-                lags = _foretold(data)
-                return ErrorRow("locked", own, after, not lags, told, of.unit, of.response, "", other, lags)
+                scored = data.left_on_locked
+                lags, left = _foretold(data) if scored is None else "", after if scored is None else scored
+                return ErrorRow("locked", own, left, not lags, told, of.unit, of.response, "", other, lags)
             note = "; ".join(filter(None, [refitted, f"{after:.3g} {of.unit} with what is claimed"]))
             return ErrorRow("locked", None, own, True, note, of.unit, of.response)
     before, after = _of_role(data, "locked")

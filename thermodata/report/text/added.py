@@ -50,7 +50,8 @@ def before_after_text(result: FitResult) -> str:
     ]
     lost = lost_sentence(result.before or [], result.scores, result.checks)
     left_out = [note for note in result.notes if note.startswith(MADE_WITHOUT)]
-    head = "".join(f"{said}\n\n" for said in (*left_out, worse_on_locked(result), lost) if said)
+    locked = worse_on_locked(result) or _on_locked(result)
+    head = "".join(f"{said}\n\n" for said in (*left_out, locked, lost) if said)
     refitted = note_on_the_same_tests(result.notes)
     too = {s.test for s in result.scores if s.role != base_role(s.role)}
     fitted = tests_of_role(common[1], "calibration")
@@ -59,6 +60,20 @@ def before_after_text(result: FitResult) -> str:
     once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
     tables = f"{head}{leveled(table(rows, columns))}\n{prose(explained('verification', 'fitted'))}"
     return "\n".join(filter(None, [tables, prose(refitted), told, once]))
+
+
+def _on_locked(result: FitResult) -> str:
+    """What the version leaves on the locked tests that were opened for all that it adds; '' where none were. Of several
+    responses nothing here says which it is of, and in which unit."""
+    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
+    if before is None or after is None or len(result.responses) > 1:
+        return ""
+    own = before if result.locked_rmse_um_fitted is None else result.locked_rmse_um_fitted
+    beside = "" if own == before else f" ({number(before)} refitted to all open tests)"
+    return (
+        f"locked tests, opened for what the diagnosis claims: {number(own)}{beside} -> {number(after)} um, of this "
+        "version as it is"
+    )
 
 
 def worse_on_locked(result: FitResult) -> str:

@@ -19,6 +19,8 @@ LEAST_TESTS = 3
 """of so many at least,"""
 SAME = 0.02
 """where the tests make the error that is told."""
+LAGS = "; this is of one lag for each effect: a version to which add gives second ones leaves what add tells"
+"""Of what is foretold to get no better than the model as it is fitted."""
 OTHERWISE = 1.5
 """Of locked tests: a share that is left as scored, so many times that of the shape, is told with the latter."""
 
@@ -75,6 +77,12 @@ def beside(one: Candidate, left: float | None) -> list[str]:
 
 def locked_errors(claims: Sequence[Candidate]) -> str:
     """Locked tests are scored with all claims together, from their first samples; a claim is judged by its shape."""
+    said = _locked_errors(claims)
+    judged = said and claims[0].locked_tests_asked != 0
+    return said + LAGS if judged and not on_locked(claims[0])[1] else said
+
+
+def _locked_errors(claims: Sequence[Candidate]) -> str:
     before, after = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
     if before is None or after is None:
         return ""

@@ -114,7 +114,8 @@ class FitResult(Result):
         the same tests
     locked_rmse_um_before: of add: the error on the locked tests without what the parent's diagnosis claims, where all
         of that is added; null where it is not, or none was asked
-    locked_rmse_um_after: the same with all that it claims
+    locked_rmse_um_after: of this version itself, with the second lags that it was given; null where it can't be scored
+        on the tests that the claims were asked of
     locked_rmse_um_fitted: the same of the parent as it is fitted, for the one before is refitted to all open tests;
         null where both leave as much to a tenth, and in an answer of an older version
     lost: of add and remove: what the parent predicts and this version does not; an error before and one after are
