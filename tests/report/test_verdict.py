@@ -486,7 +486,8 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
             (0.747, 2.73, 0.9),
             (None, None),
             "; locked tests 0.747 (2.73 refitted to all open tests) -> 0.900 um: with the model as it is fitted it is "
-            "less; this is of one lag for each effect: a version to which add gives second ones leaves what add tells",
+            "less; this is with one lag for each effect: add may give it a second one, and tells what that version "
+            "leaves",
         ),
         (
             (1.56, 0.777, 0.83),

@@ -19,7 +19,7 @@ LEAST_TESTS = 3
 """of so many at least,"""
 SAME = 0.02
 """where the tests make the error that is told."""
-LAGS = "; this is of one lag for each effect: a version to which add gives second ones leaves what add tells"
+LAGS = "; this is with one lag for each effect: add may give it a second one, and tells what that version leaves"
 """Of what is foretold to get no better than the model as it is fitted."""
 OTHERWISE = 1.5
 """Of locked tests: a share that is left as scored, so many times that of the shape, is told with the latter."""

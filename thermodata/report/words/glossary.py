@@ -9,8 +9,8 @@ _FROM_THE_OTHERS = (
 
 ERRORS = {
     "locked": "tests that no fit and no choice has seen; they are opened to confirm what is claimed or likely, "
-    "and every look is counted; what a claim leaves there is foretold for one lag of each effect, and of a version to "
-    "which add gives second lags add tells its own",
+    "and every look is counted; what a claim leaves there is foretold with one lag for each effect, and add tells it "
+    "of the version that it makes",
     "left-out": f"each open test in turn, {_FROM_THE_OTHERS}; its level is free and all tests count alike, so a plain "
     "refit without it gives other figures",
     "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
