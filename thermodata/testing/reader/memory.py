@@ -6,6 +6,8 @@ import gc
 import tempfile
 import time
 import tracemalloc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +21,7 @@ ROWS = 1000  # of a block, where its size can be set
 FIRST, LAST = MIB // 4, 32 * MIB  # sizes of the growing file
 SURE = 4 * MIB  # that large a file tells, if a reader is too slow for more
 LONG_ENOUGH_S = 12.0  # of processor time: a slow reader's file is not made larger after so long
+QUIET_S = 0.05  # in which the threads of a library end what they do
 HELD = 0.75  # of what the file is larger: whoever reads all of it at once holds more
 
 
@@ -29,7 +32,7 @@ def memory_does_not_grow_with_the_file(case: Case, path: Path, source: Source) -
     if case.block_rows is not None:
         source = replace(source, options={**source.options, case.block_rows: ROWS})
     begin, size, held, flat = time.process_time(), FIRST, [0], 0
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, _traced():
         grown = Path(folder) / path.name
         while size <= LAST:
             held.append(_most_held(case, _grow(record, grown, size), source))
@@ -68,11 +71,26 @@ def _grow(record: Record, path: Path, size: int) -> Path:
 def _most_held(case: Case, path: Path, source: Source) -> int:
     """[bytes] at once, of a reading that keeps no block."""
     gc.collect()
+    tracemalloc.clear_traces()
+    reader = case.make()
+    for _ in guarded(reader, path, source, described(reader, path, source)):
+        pass
+    return tracemalloc.get_traced_memory()[1]
+
+
+@contextmanager
+def _traced() -> Iterator[None]:
+    """While what Python allocates is traced. A library's thread that allocates just when tracing begins or ends takes
+    the whole process down (CPython 3.11), so these get the time to end what they do."""
+    _let_threads_end()
     tracemalloc.start()
     try:
-        reader = case.make()
-        for _ in guarded(reader, path, source, described(reader, path, source)):
-            pass
-        return tracemalloc.get_traced_memory()[1]
+        yield
     finally:
+        _let_threads_end()
         tracemalloc.stop()
+
+
+def _let_threads_end() -> None:
+    gc.collect()
+    time.sleep(QUIET_S)
