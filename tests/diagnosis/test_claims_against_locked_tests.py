@@ -9,7 +9,7 @@ import pytest
 from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.tell.candidate.of_locked import stands_for
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
-from thermodata.report.verdict.candidate_errors import locked_errors
+from thermodata.report.verdict.candidate_errors import LAGS, locked_errors
 
 from ..answers import candidate
 from .hand_made import scored
@@ -53,10 +53,10 @@ def test_the_head_says_that_they_do_not_bear_it_out_and_why_it_is_claimed() -> N
     worse = "; locked tests get worse (12.9 -> 13.0 um, by their shape 6.71 -> 6.87 um)"
     assert locked_errors([one]) == (
         f"{worse}, so they do not bear it out as it would be added; it is claimed all the same, for their error falls "
-        "there"
+        f"there{LAGS}"
     )
-    assert locked_errors([one.model_copy(update={"stands_for": None})]) == worse, "of an older version"
+    assert locked_errors([one.model_copy(update={"stands_for": None})]) == worse + LAGS, "of an older version"
     other = candidate("sun:T", claimed=True, stands_for="it falls, too")
     assert locked_errors([one, other]).endswith(
-        "; they are claimed all the same: bent, for their error falls there, and sun, for it falls, too"
+        f"; they are claimed all the same: bent, for their error falls there, and sun, for it falls, too{LAGS}"
     )

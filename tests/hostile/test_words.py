@@ -170,7 +170,9 @@ def test_locked_tests_that_a_claim_makes_worse_come_before_the_errors_that_it_ma
         "the locked tests get worse with what the diagnosis claims: 1.84 -> 5.01 um, 2.7 times as much, as its answer"
     )
     assert text.startswith(f"as they are scored, from their first samples on, {worse} says, which judges by") is told
-    assert ("locked" in text) is told
+    assert ("get worse" in text) is told
+    own = f"locked tests, opened for what the diagnosis claims: 1.84 -> {locked[1]:.2f} um" if locked[1] else "locked"
+    assert (own in text) is (locked[1] is not None and not told)
 
 
 @pytest.mark.parametrize(("fitted", "told"), [(6.0, False), (2.0, True)])
