@@ -15,13 +15,16 @@ _AMOUNT = re.compile(
     r"(?P<unit>s|sec|seconds?|sekund\w*|second[ei]|min|minutes?|minut\w*|h|hours?|stund\w*|heures?|or[ae])\b",
     re.IGNORECASE,
 )
-# '2:30 min', '0:02:30 h', '3m05s' are one amount; what stands before '/day', or behind a stroke or a dash, is none
+# '2:30 min', '0:02:30 h', '3m05s' are one amount; what stands before '/day', or behind a stroke, a dash or 'bis', is
+# none
 _CLOCKED = re.compile(
     r"(?<![\d:.,/])(?P<a>\d{1,3}):(?P<b>[0-5]\d)(?::(?P<c>[0-5]\d))?\s*(?P<unit>h|hours?|stund\w*|std|min|minut\w*)\b",
     re.IGNORECASE,
 )
 _COMPACT = re.compile(r"(?<!\w)(?P<m>\d{1,3})\s?(?:m|'|′)\s?(?P<s>[0-5]?\d)\s?(?:s|\"|″|'')(?!\w)", re.IGNORECASE)
-_PART = re.compile(r"(?:\d\s*[:/\-–]|\d\s+\d+/|\d[a-z]|±\s*)$", re.IGNORECASE)
+_PART = re.compile(
+    r"(?:\d\s*[:/\-–]|\d\s+\d+/|\d[.,a-z]|±\s*|\d\s*(?:to|bis|or|oder|až|à|ou|a|o|and|und)\s*)$", re.IGNORECASE
+)
 _RATE = re.compile(
     r"\s*(?:/\s*|\b(?:pro|per|je|al|par|por|za|an?)\s+)(?:d|day|tag|h|hour|stunde|giorno|jour|d[ií]a|den|week|woche)\b",
     re.IGNORECASE,
