@@ -4,11 +4,13 @@ where it stands, and a probe that slips knows of neither."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
+from thermodata.diagnosis.steps.places_that_tell import places_that_tell
 from thermodata.diagnosis.steps.step import Step
 from thermodata.plugin import Float1D
 from thermodata.view.grid.dataset import ChannelInfo
@@ -159,3 +161,33 @@ def test_the_place_of_a_screw_tells_where_its_moves_make_steps(grows: float, pla
 def test_a_slip_at_one_of_many_moves_does_not_make_its_place_tell() -> None:
     assert telling(of(placed(TO_AND_FRO), warmed(), grows=0.0, slip=4.0, at=150)) == []
     assert telling(Parts(rough())) == [], "nobody logged it"
+
+
+def in_windows(
+    visited: Sequence[float], grows: float = GROWS, noise: float = 0.05, *, nut: float | None = None
+) -> list[str]:
+    """Two samples every six minutes at one place after the other, between which the axis goes to and fro."""
+    many, pause = 60, 4
+    minute = np.concatenate([k * (2 + pause) + np.arange(2) for k in range(many)])
+    place = np.repeat([visited[k % len(visited)] for k in range(many)], 2).astype(float)
+    warm = 21.0 + 20.0 * (1 - np.exp(-minute / 100)) if nut is None else np.full(len(minute), nut)
+    drawn = noise * np.random.default_rng(1).normal(size=len(minute))
+    found = problem(
+        Parts(drawn + grows * (place - 400.0) * (warm - 21.0), values={"pos": place, "T": warm}, channels=axis()),
+        noise=noise,
+    )
+    [block] = found.blocks
+    t_s = minute * 60.0
+    return places_that_tell(replace(found, blocks=(replace(block, t_s=t_s, test=replace(block.test, t_s=t_s)),)))
+
+
+@pytest.mark.parametrize("visited", [(150, 650), (150, 650, 400), (150,) * 10 + (650,) * 10])
+def test_a_place_tells_from_one_window_of_measuring_to_the_next(visited: Sequence[float]) -> None:
+    assert in_windows(visited) == ["pos"]
+    assert in_windows(visited, grows=0.0) == [], "it does nothing"
+    assert in_windows(visited, nut=21.0) == [], "the screw is cold"
+    assert in_windows(visited, noise=3.0) == [], "less than a step that could be seen"
+
+
+def test_one_place_in_all_windows_tells_nothing() -> None:
+    assert in_windows((650,)) == []

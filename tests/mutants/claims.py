@@ -29,6 +29,7 @@ BESIDE = {
     "refinement.py": ("refinement", "what_the_air_warms"),
     "warm_at_rest.py": ("candidates", "what_the_air_warms"),
     "changes.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
+    "places_that_tell.py": ("steps_by_moves",),
     "sudden.py": ("steps", "decays", "steps_beside_commands"),
     "repeating.py": ("repeated_steps",),
     "confirm.py": ("the_locked_tests",),
@@ -1026,7 +1027,9 @@ MUTANTS = [
         "what every start and stop does is a slip",
     ),
     diagnosis("commanded.py", "elif quantity == POSITION:", "elif False:", "the growth of a screw is a slip"),
-    diagnosis("changes.py", "{WARM: far * rise}", "{WARM: far}", "so it is as it warms"),
+    diagnosis("changes.py", "{WARM: far * warmer}", "{WARM: far}", "so it is as it warms"),
+    diagnosis("places_that_tell.py", "windows is not None and", "False and", "no window tells of a screw"),
+    diagnosis("places_that_tell.py", "np.diff(place) * (", "np.diff(place) * 0 + (", "a screw that rests moves"),
     diagnosis("changes.py", "and holds(at, c.at)", "", "a column that is warm excuses slips"),
     diagnosis("commanded.py", "AS_WARM = 0.5", "AS_WARM = 0.0", "cold moves tell of a warm screw"),
     diagnosis("commanded.py", "AS_WARM = 0.5", "AS_WARM = 1.5", "a move excuses what none as warm does"),
@@ -1034,7 +1037,7 @@ MUTANTS = [
     diagnosis("changes.py", "STANDS_S = 300.0", "STANDS_S = 900.0", "a short stop is no place"),
     diagnosis("changes.py", "LEAST_MM = 1.0", "LEAST_MM = 0.0", "the noise of a position moves an axis"),
     diagnosis("commanded.py", "if alike >= ALIKE else 0.0", "", "one slip at a move asks for the growth of a screw"),
-    diagnosis("artefact.py", "commands.make(n) >= least", "True", "it is asked wherever an axis is logged"),
+    diagnosis("places_that_tell.py", "commands.make(name) >= least", "True", "it is asked wherever an axis is logged"),
     diagnosis("of_library.py", "not (alone or ", "not (", "the growth of a screw is never missing"),
     diagnosis(
         "of_library.py", "in self.seen.telling and not", "is not None and not", "a place that tells nothing is a cause"

@@ -15,7 +15,7 @@ import numpy as np
 
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.question.problem import Block, Problem
-from thermodata.diagnosis.steps.commanded import POSITION, commands_of
+from thermodata.diagnosis.steps.commanded import commands_of
 from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import (
     beyond_slopes,
@@ -74,13 +74,6 @@ def find_steps(problem: Problem) -> list[Step]:
             if not any(step.test.key == key and abs(step.at_s - at) <= 2 * windows.step_s for key, at in known):
                 steps.append(step)
     return sorted(steps, key=lambda s: -s.z)
-
-
-def places_that_tell(problem: Problem) -> list[str]:
-    """The positions of axes that make steps in the residual where they go from one place to another."""
-    found = {n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity == POSITION}
-    commands, least = commands_of(problem), least_step(problem.noise, tread_of_response(problem))
-    return sorted(n for n in found if commands.make(n) >= least)
 
 
 def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step]:

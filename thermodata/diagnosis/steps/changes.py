@@ -85,9 +85,9 @@ def _of_axis(block: Block, name: str, temperatures: tuple[str, ...], least: floa
     rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
     found: list[Course | None] = [Course({1: far}, {1: rows}, unknown) if len(place) else None]
     for temperature in temperatures:
-        rise = _rise(block, temperature)
-        both = len(place) and len(rise)
-        found.append(Course({WARM: far * rise}, {WARM: rows}, unknown) if both else None)
+        warmer = rise(block, temperature)
+        both = len(place) and len(warmer)
+        found.append(Course({WARM: far * warmer}, {WARM: rows}, unknown) if both else None)
     return found
 
 
@@ -99,9 +99,15 @@ def _from_place_to_place(place: Float1D, far: Float1D, least: float, many: int) 
     return found[np.array([all(np.ptp(side) <= least for side in both) for both in sides], dtype=np.bool_)]
 
 
-def _rise(block: Block, name: str) -> Float1D:
-    """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
+def held_value(block: Block, name: str) -> Float1D:
+    """The last logged value at each sample, shape (m,); empty where nothing is logged."""
     value, _ = _kept_or_made(_value_held, block, name)
+    return value
+
+
+def rise(block: Block, name: str) -> Float1D:
+    """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
+    value = held_value(block, name)
     if not len(value):
         return value
     logged = np.asarray(block.test.values[name], dtype=np.float64)

@@ -11,7 +11,7 @@ from thermodata.diagnosis.candidates.seen import Seen
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.steps.artefact import places_that_tell
+from thermodata.diagnosis.steps.places_that_tell import places_that_tell
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.view.grid.dataset import Dataset, TestData
