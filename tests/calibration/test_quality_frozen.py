@@ -1,4 +1,4 @@
-"""A temperature that freezes while it is logged (calibration/quality/frozen.py)."""
+"""A temperature or a probe that freezes while it is logged (calibration/quality/frozen.py)."""
 
 from __future__ import annotations
 
@@ -136,3 +136,35 @@ def test_a_sensor_that_leaps_as_it_comes_back_is_stuck() -> None:
     x, speed = driven([(FROM, TO)])
     x[TO:] += 1.0
     assert flagged_beside(x, speed)[FROM:TO].all()
+
+
+def probe(seed: int, count: float = 0.3, noise: float = 2.0) -> Float1D:
+    """Displacement [um] in counts of a converter, which drifts by 20 um and flickers by some counts."""
+    rng = np.random.default_rng(seed)
+    drift = 20 * (1 - np.exp(-np.arange(N) / 1200)) + rng.normal(0, noise * count, N)
+    return np.asarray(np.round(drift / count) * count)
+
+
+def probes(*values: Float1D) -> Array:
+    columns = {f"d{i}": ColumnInput(v, "displacement", at="tcp") for i, v in enumerate(values)}
+    return np.asarray(flag_stream(clock(N, 10.0), columns)[0]["d0"])
+
+
+@pytest.mark.parametrize("reads", [None, 0.0])
+@pytest.mark.parametrize("stop", [FROM + 200, N])
+def test_a_probe_that_stands_in_its_counts_is_flagged_beside_others_that_go_on(reads: float | None, stop: int) -> None:
+    x = stands(probe(1), stop=stop)
+    if reads is not None:
+        x[FROM:stop] = reads
+    assert not probes(probe(1), probe(2)).any()
+    flags = probes(x, probe(2), probe(3))
+    assert (flags[FROM:stop] & (Flag.STUCK | Flag.HELD)).all()
+    assert not flags[: FROM - 5].any()
+
+
+def test_a_probe_is_left_where_all_probes_stand_or_counts_are_coarse_or_for_minutes_only() -> None:
+    stood = [stands(probe(seed), stop=N) for seed in (1, 2, 3)]
+    assert not (probes(*stood) & Flag.STUCK).any()
+    coarse = [np.round(probe(seed) / 2) * 2 for seed in (1, 2)]
+    assert not (probes(*coarse) & (Flag.STUCK | Flag.HELD)).any()
+    assert not (probes(stands(probe(1), stop=FROM + 170), probe(2)) & Flag.STUCK).any()

@@ -1,5 +1,5 @@
-"""A temperature sensor that freezes while it is logged: it flickered by a count or more all the time, and from one
-moment on reads the same to the last digit.
+"""A temperature sensor or a probe that freezes while it is logged: it flickered by a count or more all the time, and
+from one moment on reads the same to the last digit.
 
 Nothing jumps where it freezes, and nothing needs to come back. What tells it is its own noise: a reading that changes
 every few samples, in its calmest stretches too, does not stand for half an hour by chance. One that counts coarsely, or
@@ -43,8 +43,8 @@ def drives_stand(drives: Sequence[tuple[str, Array]]) -> Bool1D | None:
 def frozen_runs(
     x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stand: Bool1D | None
 ) -> Iterator[tuple[int, int, str]]:
-    """(start, stop, why) of stretches in which a temperature x, shape (n,), is frozen. others: the temperatures
-    that are logged with it; where there is none, or most of them rest as well, nothing is told. stand: see
+    """(start, stop, why) of stretches in which a temperature or a probe x, shape (n,), is frozen. others: those of its
+    kind that are logged with it; where there is none, or most of them rest as well, nothing is told. stand: see
     `drives_stand`."""
     long = own.lengths >= LEAST_SAMPLES
     runs = [

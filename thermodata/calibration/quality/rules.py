@@ -36,6 +36,7 @@ from thermodata.schema.words.places import is_at_tool
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
 # ... and of these which rest on no end: no pump that is off holds them at 0, and no air is more than saturated.
 _FREEZES = ("temperature", "temperature_difference")
+_PROBED = ("displacement", "tilt")
 _AT_AN_END = Flag.SATURATED | Flag.OUT_OF_RANGE
 _TOLD = Flag.HELD | Flag.STUCK | _AT_AN_END
 Rule = Callable[[Marked], None]
@@ -154,11 +155,12 @@ def held_or_stuck(seen: Marked) -> None:
 
 
 def froze_while_it_was_logged(seen: Marked) -> None:
-    """A temperature that flickered all the time and stands since; see `quality.frozen`."""
+    """A temperature or a probe that flickered all the time and stands since; see `quality.frozen`."""
     column = seen.column
-    if seen.stats is None or not len(seen.stats.starts) or column.quantity not in _FREEZES or is_at_tool(column.at):
+    alike = next((kind for kind in (_FREEZES, _PROBED) if column.quantity in kind), ())
+    if seen.stats is None or not len(seen.stats.starts) or not alike or (alike is _FREEZES and is_at_tool(column.at)):
         return
-    beside = seen.beside(*_FREEZES)
+    beside = seen.beside(*alike)
     stand = drives_stand([(c.quantity, c.values) for c in seen.stream.columns.values()]) if beside else None
     for start, stop, why in frozen_runs(seen.x, seen.stream.t_ns, seen.stats, beside, stand):
         if not seen.has(_TOLD, slice(start, stop)).any():
