@@ -34,6 +34,13 @@ def test_short_stays_on_one_level_within_a_converters_noise(side: int) -> None:
     assert (which, times) == (side, 20)
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_short_stays_on_one_reading_of_a_probe_that_flickers_by_its_counts(side: int) -> None:
+    """Two counts of noise are too few for an extreme to tell by itself that it comes again."""
+    found = stays_at_extreme(side * np.round(probe(noise=0.0, own=0.0005) / 0.00025) * 0.00025)
+    assert found == (pytest.approx(side * RAIL), 0.0, side, 20)
+
+
 def test_a_row_on_the_way_there_and_back_is_none_of_them() -> None:
     x = probe()
     x[MEASURES::CYCLE] = 9.7
@@ -55,7 +62,7 @@ def _stroke(x: Float1D) -> Float1D:
         lambda: probe(at=RAIL - 250 * NOISE),
         lambda: np.where(np.arange(N) == 50, 11.0, probe()),  # it reads beyond
         lambda: probe(rail=RAIL + 0.5 * np.repeat(np.arange(N // CYCLE) % 2, CYCLE)),  # two levels
-        lambda: probe(noise=0.0),  # to the last digit: told without its noise
+        lambda: np.round(probe(noise=0.0) / 0.5) * 0.5,  # in treads, of which each is read again and again
         lambda: probe(rail=RAIL + 0.2 * np.sin(np.arange(N) / 7)),
     ],
 )

@@ -46,7 +46,7 @@ def ends_of_ranges(readings: Mapping[tuple[str, str], Reading]) -> dict[tuple[st
     found: dict[tuple[str, str], Limits] = {}
     for channel in dict.fromkeys(c for _, c in readings):
         own = {t: r for (t, c), r in readings.items() if c == channel}
-        if not any(r.is_fine for r in own.values()):
+        if not any(r.is_fine or r.jumps_to_one_reading for r in own.values()):
             continue
         lower, upper = _end(own, -1), _end(own, 1)
         for test, r in own.items():

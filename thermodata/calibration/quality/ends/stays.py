@@ -1,5 +1,5 @@
 """Short stays at the end of a range: a probe that is out of reach between two measurements stands on its extreme for
-minutes, again and again, as quiet as its converter."""
+minutes, again and again, as quiet as its converter, or to the last digit."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ BAND = 8.0  # of its noise, between the extremes of a plateau of thousands of ro
 _APART, _JUMPS = 0.1, 300.0  # of the channel's span, and times the noise, that nothing is read between it and the rest
 _FLAT = 6.0  # standard errors that the mean of a stay may lie off their level: what is measured drifts
 _QUIET = 0.75  # of the noise of all else, at most: there a probe measures nothing
+_SELDOM = 0.5  # of neighbours of all else that are equal, where a stay to the last digit is no tread
 _EXACT = 1e-9  # of the level: of one reading that was rounded
 _MIDDLE = 0.789  # standard deviations: that of the middle nine tenths of a normal scatter
 _ON_THE_WAY = 2  # rows of a stay in which the probe comes there or leaves
@@ -21,8 +22,8 @@ _BROKEN = 0.05  # of the rows, in stays that are too short to tell anything
 
 def stays_at_extreme(x: Float1D) -> tuple[float, float, int, int] | None:
     """(level, noise, -1 for the lowest or 1 for the highest readings, stays) where a channel jumps to one level beyond
-    all that it reads else, stands there for some rows and jumps back, in all stays alike. x: shape (n,), finite, in
-    order."""
+    all that it reads else, stands there for some rows and jumps back, in all stays alike. noise: 0 where all of them
+    are one reading to the last digit. x: shape (n,), finite, in order."""
     if x.size < 4 * _LEAST_ROWS:
         return None
     found = [(side, stays) for side in (-1, 1) if (stays := _at_top(side * x)) is not None]
@@ -42,7 +43,9 @@ def _at_top(x: Float1D) -> tuple[float, float, int] | None:
     top = ordered[wide[-1] + 1 :]
     level = float(np.median(top))
     noise = _scatter(top)
-    if noise <= _EXACT * abs(level) or noise * _JUMPS >= apart[wide[-1]] or top[-1] > level + BAND * noise:
+    exact = noise <= _EXACT * abs(level)
+    noise = 0.0 if exact else noise
+    if noise * _JUMPS >= apart[wide[-1]] or top[-1] > level + BAND * noise:
         return None
     at = x >= level - BAND * noise
     starts, stops = true_runs(at)
@@ -55,7 +58,12 @@ def _at_top(x: Float1D) -> tuple[float, float, int] | None:
     off = [abs(float(x[a:b].mean()) - level) * np.sqrt(b - a) for a, b in lasted]
     rest = x < ordered[wide[-1] + 1]
     calm = np.abs(np.diff(x))[rest[1:] & rest[:-1]]
-    if max(off) > _FLAT * noise or not calm.size:
+    if not calm.size:
+        return None
+    if exact:  # a reading in treads repeats any of its values; one that flickers by its counts does not
+        flickers = np.mean(calm == 0) < _SELDOM and apart[wide[-1]] >= _JUMPS * float(np.median(calm))
+        return (level, noise, n) if flickers else None
+    if max(off) > _FLAT * noise:
         return None
     return (level, noise, n) if noise <= _QUIET * float(np.median(calm)) / (0.6745 * np.sqrt(2)) else None
 

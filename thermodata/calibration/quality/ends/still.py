@@ -51,6 +51,11 @@ class Reading:
             and self.alternates >= _NOISY
         )
 
+    @property
+    def jumps_to_one_reading(self) -> bool:
+        """Whether it jumps to its extreme again and again, and stands there to the last digit, though it flickers."""
+        return self.plateau is not None and self.plateau[1] == 0
+
     def stats(self) -> RunStats:
         """Without any runs."""
         none = np.empty(0, np.int64)
