@@ -1018,7 +1018,7 @@ MUTANTS = [
     ),
     diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),
     diagnosis("sudden.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
-    diagnosis("changes.py", "MOVED = 0.1", "MOVED = 0.9", "small commands explain nothing"),
+    diagnosis("changes.py", "COMMANDED = 0.05", "COMMANDED = 0.9", "small commands explain nothing"),
     diagnosis("changes.py", "POWERS = (1, 2)", "POWERS = (1,)", "centrifugal shifts are slips"),
     diagnosis(
         "commanded.py",

@@ -1,7 +1,7 @@
 """Where a command, a temperature or an axis changes, and by how much: what may make a step of the displacement.
 
-A command changes by a tenth of its range; a temperature where that is sudden, for one body takes the place of another,
-or a gate opens on the air; an axis where it goes from one place to another.
+A command changes by a twentieth of its range; a temperature where that is sudden, for one body takes the place of
+another, or a gate opens on the air; an axis where it goes from one place to another.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ _T = TypeVar("_T")
 POWERS = (1, 2)
 EITHER_WAY = 0  # no power: how far it changes, up or down
 WARM = -1  # nor that: how far an axis moves, times how warm it is
-MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
+COMMANDED = 0.05  # share of a command's range over all tests, in the power by which it acts, that makes it a change
+MOVED = 0.1  # the same of a temperature and of an axis
 # and of a temperature, too, what is so many times its usual sudden change and so large: a gate opens on air that a day
 # warms by ten times as much
 SUDDEN, LEAST_K = 4.0, 0.5
@@ -51,7 +52,7 @@ def courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[Course | 
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
-    least = tuple(MOVED * float(np.ptp(every**p)) for p in POWERS)
+    least = tuple((COMMANDED if told else MOVED) * float(np.ptp(every**p)) for p in POWERS)
     logged = [b if len(own) else None for b, (own, _) in zip(blocks, held, strict=True)]
     if told:
         return [None if b is None else _kept_or_made(_of_command, b, name, least) for b in logged]
