@@ -336,15 +336,15 @@ MUTANTS = [
     ),
     text(
         "tables/blocks/table_rows.py",
-        "return line in self._anew or self.table.repeats_header(text)",
+        "return line in self._anew or repeats_header(self.table, text, under)",
         "return line in self._anew",
         "repeated headers are losses",
     ),
     text("tables/blocks/table_rows.py", "        self.stopped = True\n", "", "two tables are one"),
     text(
         "tables/blocks/table_rows.py",
-        "return rows.before(number), [",
-        "return rows, [",
+        "rows, lost = rows.before(found.line), [",
+        "rows, lost = rows, [",
         "rows of another table are read",
     ),
     text(

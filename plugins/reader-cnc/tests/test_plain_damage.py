@@ -75,7 +75,7 @@ def test_a_repeated_header_is_skipped_and_another_one_stops(tmp_path: Path) -> N
     lines = rows(20)
     same = write(tmp_path, damaged([*lines[:10], *HEADER.splitlines(), *lines[10:]]))
     assert (read(same)[1].size, read(same)[3]) == (20, [])
-    other = write(tmp_path, damaged([*lines[:10], "Datum;Čas;nActSpeed;T1 [°C];Program", *lines[10:]]))
+    other = write(tmp_path, damaged([*lines[:10], "Datum;Čas;nActSpeed;T2 [°C];Program", *lines[10:]]))
     _, t_ns, _, losses = read(other)
     assert t_ns.size == 10
     assert "another header" in losses[0].reason

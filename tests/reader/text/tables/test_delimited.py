@@ -74,11 +74,11 @@ def test_files_that_were_joined_repeat_their_header(tmp_path: Path, before: int,
     assert found.said == []
 
 
-def test_a_header_in_another_order_ends_the_reading(tmp_path: Path) -> None:
-    found = read(tmp_path, HEAD + rows(0, 9) + "time;state;a\n" + rows(9, 20))
+def test_a_header_of_other_names_ends_the_reading(tmp_path: Path) -> None:
+    found = read(tmp_path, HEAD + rows(0, 9) + "time;state;b\n" + rows(9, 20))
     assert len(found.t_ns) == 9
     assert found.said == [
-        "a.csv line 11: another header begins here, nothing after it is read: 'time;state;a'; split the file there"
+        "a.csv line 11: another header begins here, nothing after it is read: 'time;state;b'; split the file there"
     ]
 
 
@@ -89,7 +89,7 @@ def test_what_stands_behind_another_header_is_told_as_lost(tmp_path: Path, first
     behind = round(first * share / (1 - share))
     at = np.datetime64("2026-03-02T08:00:00") + np.arange(first + behind).astype("timedelta64[s]")
     lines = [f"{t};20.5;on\n" for t in at.astype(str).tolist()]
-    path.write_text("".join([HEAD, *lines[:first], "time;state;a\n", *lines[first:]]))
+    path.write_text("".join([HEAD, *lines[:first], "time;state;b\n", *lines[first:]]))
     (loss,) = [p for p in blocks(path, open_table(path, Source()), Source()) if isinstance(p, Loss)]
     assert loss.fraction == pytest.approx(share, abs=0.02)
 
@@ -102,7 +102,7 @@ def test_nothing_of_the_rest_is_read_behind_another_header(tmp_path: Path) -> No
 
 def test_nothing_is_read_in_any_later_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("thermodata.reader.text.delimited.chunks", lambda path, encoding: chunks(path, encoding, 64))
-    found = read(tmp_path, HEAD + rows(0, 9) + "time;state;a\n" + rows(9, 20))
+    found = read(tmp_path, HEAD + rows(0, 9) + "time;state;b\n" + rows(9, 20))
     assert found.at == [*range(2, 11)]
     assert [said.split(":")[0] for said in found.said] == ["a.csv line 11"]
 

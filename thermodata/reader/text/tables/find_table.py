@@ -176,11 +176,23 @@ def _sample_table(
     except FormatError:
         refuse_sideways(rows, where, _how_to_turn(where))
         raise
+    if (end := _moved_header(lines, layout)) is not None:
+        lines = lines.up_to(end)
     body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
     groups = tuple(_with_time_formats(g, layout, body, lines, stream, where) for g in layout.groups)
     return lines, Sampled(said, layout, groups, body, where)
+
+
+def _moved_header(lines: HeadLines, layout: Layout) -> int | None:
+    """The first line below the top that has all names of the columns, and not in their order; None where none has."""
+    names, time = list(layout.names), layout.names[layout.time[0]] if layout.time else ""
+    top = len(lines.top)
+    for number, line in enumerate(lines.head[top:], top) if time else ():
+        if time in line and (cells := lines.cells(line)) != names and set(names) <= set(cells):
+            return number
+    return None
 
 
 def _how_to_turn(where: str) -> str:

@@ -4,6 +4,7 @@ anew and its file went on. What stands behind them must not be taken for the col
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from thermodata.reader.text.cells.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.cells.lines.delimiter import fields
@@ -12,28 +13,71 @@ from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
 from thermodata.reader.text.page.header.header_again import repeats_of
 from thermodata.reader.text.page.layout import Layout
+from thermodata.reader.text.tables.blocks.read_on import Under, under_header
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.units.spelling import spelled
 
 _SHOWN = 120  # letters of a line
 
 
-def another_header(table: Table, lines: Iterable[tuple[int, str]], repeated: int) -> tuple[int, str] | None:
-    """(number, what to tell) of the first line that begins another table. lines: those that are no rows of it;
-    repeated: the number of the last line before them that repeats the header."""
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A line that begins another table. told: what is to be said of it, '' for nothing; under: how the cells of its
+    rows lie, None where they are not read."""
+
+    line: int
+    told: str
+    under: Under | None = None
+
+
+def another_header(table: Table, lines: Iterable[tuple[int, str]], repeated: int, under: Under) -> Begun | None:
+    """The first line that begins another table. lines: (number, text) of those that are no rows of it; repeated: the
+    number of the last line before them that repeats the header; under: how cells lie before them."""
     for number, text in lines:
-        if table.repeats_header(text):
+        cells = cells_of(table, text)
+        again = under_header(table, cells) if names_again(table.layout, cells) else None
+        if again is not None and again != under:
+            return Begun(number, _more(again), again)
+        below, moved = number == repeated + 1, under.in_order(cells)
+        # a row of units that repeats the first header's says others where the names have moved
+        others = below and under.moved and other_units(table.layout, moved)
+        if again is not None or (not others and repeats_header(table, text, under)):
             repeated = number
             continue
-        cells = [clean(c) for c in fields(text, table.delimiter, table.quoted)]
-        if reason := begins_another(table.layout, cells, text, number == repeated + 1):
-            return number, reason
+        if reason := begins_another(table.layout, moved, text, below):
+            return Begun(number, reason)
     return None
 
 
-def last_repeated(table: Table, lines: Sequence[tuple[int, str]]) -> int:
+def last_repeated(table: Table, lines: Sequence[tuple[int, str]], under: Under) -> int:
     """The number of the last line that repeats the header, -1 where none does."""
-    return next((number for number, text in reversed(lines) if table.repeats_header(text)), -1)
+    return next((number for number, text in reversed(lines) if repeats_header(table, text, under)), -1)
+
+
+def repeats_header(table: Table, text: str, under: Under) -> bool:
+    """Whether a line repeats one above the data, or the header that its rows lie under. A row of units below that has
+    moved with the names."""
+    if table.repeats_header(text):
+        return True
+    if not under.moved:
+        return False
+    cells = cells_of(table, text)
+    if names_again(table.layout, cells) and under_header(table, cells) == under:
+        return True
+    return table.repeats_header(table.delimiter.join(under.in_order(cells)))
+
+
+def cells_of(table: Table, text: str) -> list[str]:
+    """The cells of a line, without blanks and quotes around them."""
+    return [clean(c) for c in fields(text, table.delimiter, table.quoted)]
+
+
+def _more(under: Under) -> str:
+    """What is told of columns that the table's own header does not name."""
+    if not under.more:
+        return ""
+    names = ", ".join(f"'{name}'" for name in under.more)
+    return f"columns begin here that the first header does not name, they are not read: {names}; split the file there"
 
 
 def another_in_sheet(

@@ -13,6 +13,7 @@ from thermodata.reader.text.cells.values.number import why_none
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.grid import Rows
+from thermodata.reader.text.tables.blocks.read_on import Under
 from thermodata.reader.text.tables.blocks.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.flag import Flag
@@ -32,11 +33,13 @@ class Complaint:
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """Rows with the bytes that they were parsed from. line: the number of the first line of these."""
+    """Rows with the bytes that they were parsed from. line: the number of the first line of these; under: how cells lie
+    in them."""
 
     rows: Rows
     data: bytes
     line: int
+    under: Under
 
     def texts(self, numbers: list[int]) -> Iterator[tuple[int, str]]:
         """(number, text) of some of the lines."""
@@ -94,7 +97,7 @@ class GroupRows:
         for number, text in parsed.texts(parsed.rows.line[~good].tolist()):
             if is_no_row(text, number):
                 continue
-            cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
+            cells = parsed.under.in_order(fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted))
             own = [clean(cells[i]) if i < len(cells) else "" for i in (*time, *self.columns)]
             if not any(own):
                 continue

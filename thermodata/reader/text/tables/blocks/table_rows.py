@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Loss, Source
-from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.number import to_float
 from thermodata.reader.text.cells.values.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
@@ -20,8 +20,9 @@ from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.quality_columns import values_of
 from thermodata.reader.text.rows.typed import parse
-from thermodata.reader.text.tables.blocks.another_header import another_header, last_repeated
+from thermodata.reader.text.tables.blocks.another_header import another_header, cells_of, last_repeated, repeats_header
 from thermodata.reader.text.tables.blocks.group_rows import Complaint, GroupRows, Parsed
+from thermodata.reader.text.tables.blocks.read_on import Under, own_header
 from thermodata.reader.text.tables.blocks.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.times.one_cell.second_sixty import SecondsSixty
@@ -29,6 +30,15 @@ from thermodata.reader.times.zone import NAT
 
 _BLOCK_VALUES = 1_000_000
 _HEAD_LINES = 40  # of a further head
+
+
+@dataclass(frozen=True, slots=True)
+class _Left:
+    """Whole lines that are still to be read. line: the number of the first; told: what is known of them already."""
+
+    data: bytes
+    line: int
+    told: list[Complaint]
 
 
 class RowReader:
@@ -49,6 +59,7 @@ class RowReader:
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False
+        self.under = own_header(table)
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
         self._repeated = -1  # the last line that repeats the header
@@ -72,19 +83,24 @@ class RowReader:
                 shown = tail[:80].decode("utf-8", "replace")
                 reason = f"expected a whole row (the file ends without a line end), got '{shown}'"
                 told.append(Complaint(line + data.count(b"\n"), reason, len(tail)))
-        rows = self._parse_chunk(data, line)
-        rows, told = self._until_another_header(rows, told, data, line)
+        left: _Left | None = _Left(data, line, told)
+        while left is not None:
+            parsed, lost, left = self._part(left)
+            for number, group in enumerate(self.groups):
+                yield from self._group(group, parsed, lost if number == 0 else [])
+
+    def _part(self, lines: _Left) -> tuple[Parsed, list[Complaint], _Left | None]:
+        """(the rows up to a further header, what is lost among them, what is left to be read under that)."""
+        under = self.under
+        rows, told, left = self._until_another_header(self._parse_chunk(lines.data, lines.line), lines)
         told += [Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not (self._repeats_header(bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
-                reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
+            if not (self._repeats_header(under, bad.text, bad.line) or self._is_no_row(bad.text, bad.line)):
+                reason = f"expected {under.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
         rows, others = self._by_words(rows)
-        told += others
-        parsed = Parsed(rows, data, line)
-        for number, group in enumerate(self.groups):
-            yield from self._group(group, parsed, told if number == 0 else [])
+        return Parsed(rows, lines.data, lines.line, under), [*told, *others], left
 
     def _is_no_row(self, text: str, line: int) -> bool:
         """A line that says what happened is a loss beyond what the note on such lines has looked at."""
@@ -98,18 +114,18 @@ class RowReader:
         """The starts of further heads, in the order of their lines."""
         return [self._anew[line] for line in sorted(self._anew)]
 
-    def _repeats_header(self, text: str, line: int) -> bool:
+    def _repeats_header(self, under: Under, text: str, line: int) -> bool:
         """Whether a line is one of the header again, or says that the rows behind it count from another start."""
-        return line in self._anew or self.table.repeats_header(text)
+        return line in self._anew or repeats_header(self.table, text, under)
 
-    def _is_head_or_footer(self, text: str, line: int) -> bool:
-        return self._repeats_header(text, line) or self._is_footer(text)
+    def _is_head_or_footer(self, under: Under, text: str, line: int) -> bool:
+        return self._repeats_header(under, text, line) or self._is_footer(text)
 
     def _is_footer(self, text: str) -> bool:
         return is_footer(self._cells(text))
 
     def _cells(self, text: str) -> list[str]:
-        return [clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)]
+        return cells_of(self.table, text)
 
     def _torn(self, rows: Rows) -> list[Complaint]:
         """Rows that end with the columns of a group, as if the others had ended, though longer lines follow."""
@@ -148,35 +164,46 @@ class RowReader:
         return bool(previous) and last_line_is_whole(tail.decode("utf-8", "replace"), previous, self.table.delimiter)
 
     def _parse_chunk(self, data: bytes, line: int) -> Rows:
-        rows = parse(data, line, self.grid)
+        rows = parse(data, line, self.under.grid(self.grid))
         if self.sure:
-            return rows
+            return self.under.columns_of(rows)
         other = "." if self.grid.decimal == "," else ","
         if any(to_float(clean(cell), other) is not None for v in rows.columns.values() for _, cell in v.odd):
             self.grid, self.sure = replace(self.grid, decimal=other), True  # the first fraction tells the mark
-            rows = parse(data, line, self.grid)
-        return rows
+            rows = parse(data, line, self.under.grid(self.grid))
+        return self.under.columns_of(rows)
 
-    def _until_another_header(
-        self, rows: Rows, told: list[Complaint], data: bytes, line: int
-    ) -> tuple[Rows, list[Complaint]]:
-        """The rows before a line that names the columns anew, or their units: what follows it is another table."""
+    def _until_another_header(self, rows: Rows, chunk: _Left) -> tuple[Rows, list[Complaint], _Left | None]:
+        """The rows before a line that names the columns anew, or their units, and what is told of them: what follows it
+        is another table, or left to be read where its names tell which columns are which."""
+        told = chunk.told
         since_ns = self.groups[0].clock.times(rows, peek=True)
         suspects = {*rows.line[since_ns == NAT].tolist(), *(b.line for b in rows.bad)}
         if not suspects:
             self._last_ns = int(since_ns[-1]) if since_ns.size else self._last_ns
-            return rows, told
-        lines = data.split(b"\n")
-        texts = [(n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects)]
-        self._begin_anew(texts, rows.line, since_ns)
-        found = another_header(self.table, texts, self._repeated)
-        self._repeated = last_repeated(self.table, texts)
+            return rows, told, None
+        lines = chunk.data.split(b"\n")
+        texts = [(n, lines[n - chunk.line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects)]
+        found = another_header(self.table, texts, self._repeated, self.under)
+        above = texts if found is None else [(n, text) for n, text in texts if n < found.line]
+        self._begin_anew(above, rows.line, since_ns)
         if found is None:
-            return rows, told
-        self.stopped = True
-        number, reason = found
-        size = self._bytes_left(data, lines[: number - line])
-        return rows.before(number), [*(t for t in told if t.line < number), Complaint(number, reason, size)]
+            self._repeated = last_repeated(self.table, texts, self.under)
+            return rows, told, None
+        before = lines[: found.line - chunk.line]
+        size = self._bytes_left(chunk.data, before)
+        rows, lost = rows.before(found.line), [t for t in told if t.line < found.line]
+        if found.under is None:
+            self.stopped = True
+            return rows, [*lost, Complaint(found.line, found.told, size)], None
+        self.under, self._repeated = found.under, found.line
+        self._last_ns = int(since_ns[rows.n - 1]) if rows.n else self._last_ns
+        at = sum(len(line) + 1 for line in lines[: len(before) + 1])
+        behind = [t for t in told if t.line > found.line]
+        if found.told:
+            share = size * len(found.under.more) // found.under.width
+            lost.append(Complaint(found.line, found.told, share))
+        return rows, lost, _Left(chunk.data[at:], found.line + 1, behind)
 
     def _begins_at_the_end(self, data: bytes) -> bytes:
         """The last lines of a chunk from one on that may be a further head: only the rows behind it tell."""
@@ -217,7 +244,7 @@ class RowReader:
         rows, clock = parsed.rows, group.clock
         t_ns = clock.times(rows)
         good = t_ns != NAT
-        told = [*told, *group.without_time(parsed, good, self._is_head_or_footer)]
+        told = [*told, *group.without_time(parsed, good, partial(self._is_head_or_footer, parsed.under))]
         if clock.timed.formats:
             self.sixty.add([rows.times[i] for i in clock.timed.group.time], clock.timed.formats, rows.line, t_ns)
         told += group.odd_cells(rows, good, self.grid.decimal)
