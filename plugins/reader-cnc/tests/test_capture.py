@@ -13,6 +13,7 @@ from thermodata_reader_cnc.sinumerik import capture_parts
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.times.zone import NO_ZONE
 from thermodata.testing.reader import load, reader_checks
 
 START_NS = int(np.datetime64("2026-03-02T08:00:00.125", "ns").astype(np.int64))
@@ -137,3 +138,33 @@ def test_brackets_without_end_are_no_message(tmp_path: Path) -> None:
 @pytest.mark.parametrize("number", range(len(reader_checks(Reader, [(Path("x"), Source())]))))
 def test_kit(tmp_path: Path, number: int) -> None:
     reader_checks(Reader, [(written(tmp_path, json.dumps(document(40)) + "\n"), Source())])[number]()
+
+
+@pytest.mark.parametrize("changes", [True, False])
+@pytest.mark.parametrize(
+    ("start", "zone", "open_"),
+    [
+        ("2026-03-02T09:00:00.125", None, True),
+        ("2026-03-02 09:00:00,125", None, True),
+        ("2026-03-02T09:00:00.125", "Europe/Prague", False),
+        ("2026-03-02T08:00:00.125Z", None, False),
+        ("2026-03-02T09:00:00.125+01:00", None, False),
+    ],
+)
+def test_a_start_without_a_zone_says_so(
+    tmp_path: Path, start: str, zone: str | None, open_: bool, changes: bool
+) -> None:
+    """Whether values on change say theirs or there are none: the rows of the cycle count from this start."""
+    told = document(Initial={"Time": start, "HFProbeCounter": 1000})
+    if not changes:
+        told["Payload"] = [m for m in told["Payload"] if "LFData" not in m]
+    recording = Reader().describe(written(tmp_path, json.dumps(told)), Source(timezone=zone))
+    assert any(NO_ZONE in note for note in recording.notes) == open_
+    expected = START_NS + (3600 * 10**9 if open_ else 0)
+    assert recording.start_ns == expected
+
+
+def test_a_first_stamp_without_a_zone_says_so_where_the_header_says_no_start(tmp_path: Path) -> None:
+    text = json.dumps(document(Initial=None)).replace("08:00:00.125Z", "08:00:00.125")
+    recording = Reader().describe(written(tmp_path, text), Source())
+    assert any(NO_ZONE in note for note in recording.notes)

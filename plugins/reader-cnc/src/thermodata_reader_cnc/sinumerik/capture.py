@@ -18,8 +18,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
+from thermodata.reader.text.cells.time_forms import time_pattern
 from thermodata.reader.text.times.local_clock import LocalClock
-from thermodata.reader.times.zone import NAT
+from thermodata.reader.times.zone import NAT, NO_ZONE
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.sinumerik.capture_parts import Document
@@ -52,7 +53,8 @@ def claims(lines: Sequence[str]) -> str | None:
 @dataclass(frozen=True, slots=True)
 class _Columns:
     """names: of a row's cells, None of the counter; counter: which cell counts the cycles; said: name -> what the
-    header says of it; start_ns: when cycle `first` was; step_ns: how long one is."""
+    header says of it; start_ns: when cycle `first` was; step_ns: how long one is; zoned: whether the start says where
+    it stands from UTC."""
 
     names: tuple[str | None, ...]
     counter: int
@@ -60,6 +62,7 @@ class _Columns:
     first: int
     start_ns: int
     step_ns: float
+    zoned: bool
 
 
 def _columns(header: Mapping[str, Any], stamp: Any, source: Source, where: str) -> _Columns:
@@ -68,7 +71,8 @@ def _columns(header: Mapping[str, Any], stamp: Any, source: Source, where: str) 
     initial = header.get("Initial") if isinstance(header.get("Initial"), dict) else stamp
     start, first = (initial.get("Time"), initial.get("HFProbeCounter")) if isinstance(initial, dict) else (None, None)
     cycle = _number(header.get("CycleTimeMs"))
-    ns = NAT if start is None else int(events.to_utc([str(start)[:64]], LocalClock(source.timezone))[0])
+    text = "" if start is None else str(start)[:64]
+    ns = int(events.to_utc([text], LocalClock(source.timezone))[0]) if text else NAT
     number = _number(first)
     if ns == NAT or number is None or cycle is None or not 0 < cycle < _LONGEST_MS:
         raise FormatError(
@@ -78,7 +82,8 @@ def _columns(header: Mapping[str, Any], stamp: Any, source: Source, where: str) 
             got=f"Initial: {str(initial)[:80]}, CycleTimeMs: {str(header.get('CycleTimeMs'))[:20]}",
             hint="export the recording anew, or as CSV with a time",
         )
-    return _Columns(tuple(names), counter, said, int(number), ns, cycle * 1e6)
+    zoned = time_pattern.is_zoned(text, events.ISO)
+    return _Columns(tuple(names), counter, said, int(number), ns, cycle * 1e6, zoned)
 
 
 def _names_of_cells(header: Mapping[str, Any], where: str) -> tuple[list[str | None], int, dict[str, dict[str, str]]]:
@@ -171,8 +176,11 @@ def describe(path: Path, source: Source) -> Recording:
     names = [n for n in look.columns.names if n is not None]
     fast = tuple(Signal(n, HF, None, "float64", None, dict(look.columns.said.get(n, {}))) for n in names)
     step_s = look.columns.step_ns / 1e9
-    note = f"times of {HF} count cycles of {step_s:g} s from the header's Initial"
-    return replace(slow, signals=(*fast, *slow.signals), start_ns=look.columns.start_ns, notes=(*slow.notes, note))
+    notes = [*slow.notes, f"times of {HF} count cycles of {step_s:g} s from the header's Initial"]
+    if source.timezone is None and not look.columns.zoned:
+        notes.append(f"{NO_ZONE}: times are taken as UTC")
+    signals = (*fast, *slow.signals)
+    return replace(slow, signals=signals, start_ns=look.columns.start_ns, notes=tuple(dict.fromkeys(notes)))
 
 
 class _Rows:
