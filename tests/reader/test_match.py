@@ -75,3 +75,15 @@ def test_a_name_that_was_read_in_another_encoding_says_which_to_declare(
 ) -> None:
     with pytest.raises(UsageError, match=f"declare 'encoding: {encoding}' for the source"):
         match_signal(wanted, [Signal(inside, "log"), *SIGNALS])
+
+
+@pytest.mark.parametrize("wanted", ["bCoolant", "bcoolant", "bCoolant [1]", "nc:bCoolant [1]"])
+def test_a_unit_of_one_may_be_left_out(wanted: str) -> None:
+    signals = [Signal("nc/bCoolant [1]", "nc"), Signal("nc/bDoor [1]", "nc"), Signal("nc/n [1/min]", "nc")]
+    assert match_signal(wanted, signals).name == "nc/bCoolant [1]"
+
+
+@pytest.mark.parametrize("others", [["T [1]", "T [2]"], ["T [2]"], ["T[1]"], ["T [1]", "T [1]"]])
+def test_numbers_of_signals_are_no_unit(others: list[str]) -> None:
+    with pytest.raises(UsageError, match="no signal 'T'"):
+        match_signal("T", [Signal(name, "a") for name in others])

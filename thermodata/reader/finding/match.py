@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
@@ -33,10 +34,24 @@ _SPELLINGS: tuple[Callable[[str], str], ...] = (
 )
 
 
+_WHERE: tuple[Callable[[str], str], ...] = (str, _last_part)
+_COUNTED = re.compile(r"\s+\[(\d+)\]$")
+
+
+def _without_one(wanted: str, signals: Sequence[Signal]) -> Signal | None:
+    """The signal whose unit is written as 1: 'bCoolant [1]'. None where another is counted so: 1 and 2 of 'T [1]' and
+    'T [2]' are no units."""
+    found = [
+        s for s in signals if wanted.casefold() in (spell(_COUNTED.sub("", s.name)).casefold() for spell in _WHERE)
+    ]
+    number = _COUNTED.search(found[0].name) if len(found) == 1 else None
+    return found[0] if number is not None and number[1] == "1" else None
+
+
 def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
     """The one signal that `wanted` names: exactly, then by its place (`BY_PLACE`), then without the unit in brackets,
-    then by the part after the last '/'; each first with case, then without. A stream may be named before it:
-    'Eddy@2:Eddy/Z'.
+    then by the part after the last '/'; each first with case, then without; last without a unit that is 1. A stream may
+    be named before it: 'Eddy@2:Eddy/Z'.
 
     UsageError: no such signal (with the nearest names), or several that the same spelling fits.
     """
@@ -60,6 +75,8 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
                     got=names,
                     hint=_told_apart(wanted, found, signals),
                 )
+    if (one := _without_one(wanted, signals)) is not None:
+        return one
     names_by_fold = {spell(s.name).casefold(): s.name for s in signals for spell in reversed(_SPELLINGS)}
     close = list(dict.fromkeys(names_by_fold[c] for c in get_close_matches(wanted.casefold(), names_by_fold, 3, 0.5)))
     listed = [s.name for s in signals[:20]] + (["..."] if len(signals) > 20 else [])
