@@ -64,6 +64,10 @@ def place_of(text: str, quantity: str) -> Place:
     if {"air", "bearing"} <= said and quantity == "temperature":
         return Place("pneumatics", question="at: pneumatics, the supply air of the bearing, or spindle.bearing itself?")
     said -= {"air"}
+    if "tailstock" in said:
+        said -= {"ram", "headstock"}  # whose quill is no ram; 'contre-poupée' holds the word of the headstock
+    if "saddle" in said:
+        said -= {"tool"}  # 'Werkzeugschlitten'
     if near_the_floor:
         return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):

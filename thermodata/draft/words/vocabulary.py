@@ -117,13 +117,16 @@ _PLACE_WORDS: dict[str, str] = {
     "montanti. montant. colonna. colonne.",
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tbl. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable "
-    "tab. tavola. plateau.",
+    "tab. tavola. plateau. planscheibe licni~desk~",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf schleifkopf "
     "schleifspindelkopf wheelhead wheel~head vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
-    "ram": "ram. z~schieber frasschieber fraesschieber pinole traghuls traghuels ^smykadl 滑枕 quill.",
-    "saddle": "saddle schlitten ^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
+    # 'Stoßelement' is none
+    "ram": "ram. stossel(?![e]) stoessel(?![e]) z~schieber frasschieber fraesschieber "
+    "pinole traghuls traghuels ^smykadl 滑枕 quill.",
+    "saddle": "saddle werkzeugsupport kreuzsupport bettsupport plansupport obersupport schlitten "
+    "^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
     "tool": "tool. werkzeug nastroj 刀具 刀柄 toolholder",
     "workpiece": "workpiece werkstuck werkstueck obrobek obrobku 工件 part~temp wkp.",

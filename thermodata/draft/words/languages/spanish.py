@@ -38,6 +38,7 @@ WORDS = {
     "table": "mesa. plato~giratorio",
     "headstock": "cabezal",
     "ram": "carnero ariete",
+    "tailstock": "contrapunto contrapunta contra~punto cabezal~movil",
     "saddle": "carro.",
     "crossbeam": "puente. travesano",
     "tool": "herramienta",
