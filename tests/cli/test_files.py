@@ -169,6 +169,16 @@ def test_preview_shows_rate_gaps_courses_and_flags(say: Say, tmp_path: Path) -> 
     assert "1 gaps (longest step 60.2 min)" in text
 
 
+def test_preview_flags_no_time_stamp_or_count(say: Say, tmp_path: Path) -> None:
+    """An ingest makes no channel of these; a column of which nothing is known is flagged as a probe's."""
+    lines = [f"{k},{(1_772_438_400 + k) * 10**9},{5 * 10**9 + k},{5 * 10**9 + k}" for k in range(600)]
+    (tmp_path / "a.csv").write_text("\n".join(["t [s],publish_time,counter,ai0", *lines, ""]), encoding="utf-8")
+    (stream,) = json.loads(say("preview", tmp_path / "a.csv", "--json").out)["streams"]
+    by_name = {s["name"]: s for s in stream["signals"]}
+    assert {n: by_name[n]["quantity"] for n in ("publish_time", "counter")} == {"publish_time": None, "counter": None}
+    assert {n: bool(s["flags"]) for n, s in by_name.items()} == {"publish_time": False, "counter": False, "ai0": True}
+
+
 def test_preview_reads_a_file_as_its_campaign_declares_it(say: Say, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "c")
     log = tmp_path / "c" / "raw" / "heat1.csv"

@@ -149,7 +149,8 @@ def flagged(
             "values": None if seen is None else {"low": seen.low, "high": seen.high, "median": seen.median},
             "sparkline": sparkline(column),
         }
-        if seen is not None and not seen.numerals:
+        no_channel = channel is None and guessed.is_no_reading  # an ingest makes none of it, and flags nothing
+        if seen is not None and not seen.numerals and not no_channel:
             values = _canonical(column, quantity, unit)
             inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
     flags, events = _flag(t_ns, inputs) if t_ns.size and inputs else ({}, [])

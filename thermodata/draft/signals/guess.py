@@ -13,7 +13,7 @@ from functools import lru_cache
 from thermodata.draft.signals import units
 from thermodata.draft.signals.implied_speed import with_speed_asked
 from thermodata.draft.signals.placed import placed
-from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess, range_text
+from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, OF_NONE, Guess, range_text
 from thermodata.draft.signals.quantity.quantity_of import quantity_of
 from thermodata.draft.signals.told_before import as_told
 from thermodata.draft.signals.told_units import bracket_at_end
@@ -94,7 +94,7 @@ def guess(
     if _OF_ITSELF.fullmatch(name):
         return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
-        return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
+        return Guess(None, unit, why_not=f"the numbers that pandas gives to rows: {OF_NONE}")
     if (right := _mended(name, unit, dtype, values, described)) is not None:
         return right
     said = _Name.of(name)

@@ -8,6 +8,7 @@ from thermodata.draft.signals.values import Values
 
 NO_READING = "no reading"  # begins what is said of a column that nobody need be asked about
 NOTHING = "quantity and unit?"  # begins what is asked of a signal of which neither name nor values say anything
+OF_NONE = "none of the quantities"  # ends what is said of a column that holds what no channel does
 OF_SENSOR = "a sensor's 4..20 mA?"  # begins the question for what such a signal measures
 
 
@@ -26,6 +27,12 @@ class Guess:
     questions: tuple[str, ...] = ()
     why_not: str | None = None
     instead_of: str | None = None
+
+    @property
+    def is_no_reading(self) -> bool:
+        """Whether it is known to hold what no channel does: a time stamp, a count."""
+        why = self.why_not or ""
+        return self.quantity is None and (why.startswith(NO_READING) or why.endswith(OF_NONE))
 
     def comment(self) -> str:
         """'sure: name and unit', 'guess: name only', or '? at: where on the machine?'."""

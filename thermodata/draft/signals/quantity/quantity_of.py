@@ -10,7 +10,7 @@ from thermodata.draft.signals import units
 from thermodata.draft.signals.numerals import numeral_question
 from thermodata.draft.signals.quantity.by_name import by_name
 from thermodata.draft.signals.quantity.by_unit import by_unit
-from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, Guess
+from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, OF_NONE, Guess
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
@@ -33,7 +33,7 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     if dtype == "bool":
         return Guess("state", sure=True, basis=("type",))
     if bare and values is not None and _since_a_date(values):
-        return Guess(None, unit, why_not="a count of seconds since 1970: none of the quantities")
+        return Guess(None, unit, why_not=f"a count of seconds since 1970: {OF_NONE}")
     if bare and values is not None and values.counts_rows and not named:
         return Guess(None, unit, why_not=f"{NO_READING}: it counts the rows")
     if bare and not foreign and _on_off(own, named, values):
@@ -43,7 +43,7 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
             sure=values is not None and values.switch and "state" in named,
         )
     if foreign and not _stronger(named, own, unit):
-        return Guess(None, unit, why_not=f"{foreign}: none of the quantities")
+        return Guess(None, unit, why_not=f"{foreign}: {OF_NONE}")
     if holds_word(DIFFERENCE, own) and "temperature" in named:
         named = ("temperature_difference", *(q for q in named if q != "temperature"))
     if not bare:
