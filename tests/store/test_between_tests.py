@@ -333,3 +333,27 @@ def test_starts_are_asked_of_what_is_known_to_be_of_the_machine(
     path.write_text(path.read_text("utf-8").replace("signal: T1,", f"signal: T1{place},"), "utf-8")
     ingest(store, path)
     assert set(flagged(store, "T_1", Flag.OFFSET)) == told
+
+
+@pytest.mark.parametrize(("first", "said"), [(320, None), (280, "33 % of 'dZ' does not count in 'day2'")])
+def test_what_measuring_excludes_is_not_lost_to_a_flag_too(
+    store: Store, tmp_path: Path, first: int, said: str | None
+) -> None:
+    """A probe that is held from the end of the measured phase on, and through all that comes after it."""
+    import yaml
+
+    from thermodata.modelling.fit.model import fit_model
+    from thermodata.schema.files.model import Model
+    from thermodata.view.grid.load import load_dataset
+
+    logs = [day(k) for k in (1, 2, 3, 4)]
+    logs[1][0]["main"]["dZ"][first:] = logs[1][0]["main"]["dZ"][first]
+    path = lab(tmp_path, logs)
+    extra = "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))
+    measured = extra.replace("}", ", measuring: n > 100}")
+    path.write_text(path.read_text(encoding="utf-8").replace(TESTS, "tests:\n" + measured), encoding="utf-8")
+    ingest(store, path)
+    assert [e[2] for e in events(store, "held") if e[0] == "day2"] == [N - first], "one stretch, behind it too"
+    fitted = fit_model(Model.model_validate(yaml.safe_load(MODEL)), load_dataset(store, ["days"], 60.0))
+    told = [c.advice for c in fitted.checks() if c.name == "lost_to_flags:days/day2"]
+    assert [text.partition(":")[0] for text in told] == ([said] if said else [])

@@ -20,7 +20,8 @@ class ChannelInfo:
     """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'. source:
     by whose clock it was logged; None where nobody logged it (a schedule).
 
-    lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
+    lost: share of its samples in this test that flags rule out, of those that its `measuring` leaves where it declares
+    one. faulty: the flag for which its sensor is judged faulty
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
     whether the campaign file says how its source's clock stands (of a dataset: in all tests). is_mask: a state at no
     place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.

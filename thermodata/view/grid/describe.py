@@ -105,7 +105,9 @@ def channel_infos(
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:
             known = infos[campaign, test][name]
-            infos[campaign, test][name] = replace(known, lost=own.lost, faulty=own.faulty, shifted=own.shifted)
+            infos[campaign, test][name] = replace(
+                known, lost=own.lost_while_measuring, faulty=own.faulty, shifted=own.shifted
+            )
     return infos
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -24,10 +24,12 @@ _COUNTS_NOT = frozenset(f.word for f in Flag if f & INVALID and f != Flag.NOT_ME
 @dataclass(slots=True)
 class Flagged:
     """Of a channel in a test. lost: share of its samples that flags rule out, at most 1. flags: flag -> share.
-    constant: share that is off by one number in all tests."""
+    constant: share that is off by one number in all tests. while_measuring: the share of the samples that the test's
+    `measuring` leaves, None where it declares none or little is lost."""
 
     flags: dict[str, float] = field(default_factory=dict)
     constant: float = 0.0
+    while_measuring: float | None = None
 
     @property
     def shifted(self) -> bool:
@@ -38,6 +40,16 @@ class Flagged:
     def lost(self) -> float:
         """Share of the samples that flags rule out, for whatever counts from the test's start."""
         return min(1.0, sum(self._counting().values()))
+
+    @property
+    def lost_while_measuring(self) -> float:
+        """The same of the samples that the test measures: what comes before and after is lost to no flag."""
+        return self.lost if self.while_measuring is None else self.while_measuring
+
+    @property
+    def mask(self) -> int:
+        """The flags that rule samples out."""
+        return sum(int(Flag[f.upper()]) for f in self._counting())
 
     def _counting(self) -> dict[str, float]:
         return {f: share for f, share in self.flags.items() if not (self.shifted and f == "offset")}
@@ -80,4 +92,28 @@ def flagged_channels(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -
             one = found.setdefault((campaign, test), {}).setdefault(name, Flagged())
             one.flags[flag] = one.flags.get(flag, 0.0) + n / total
             one.constant += constant / total if flag == "offset" else 0.0
+    _look_while_measuring(con, found)
     return found
+
+
+def _look_while_measuring(con: duckdb.DuckDBPyConnection, found: Mapping[Key, Mapping[str, Flagged]]) -> None:
+    """Counts the samples of channels that lost much in tests that measure at times only: an event may begin while the
+    test measures and go on behind it."""
+    timed = set(con.execute("select campaign, test from test where measuring is not null").fetchall())
+    for (campaign, test), channels in found.items():
+        for name, one in channels.items():
+            if (campaign, test) not in timed or one.lost <= FAULTY_SHARE:
+                continue
+            row = con.execute(
+                "select count(*), count(*) filter (where flag & $mask <> 0) from sample where campaign = $campaign "
+                "and test = $test and channel = $channel and coalesce(flag, 0) & $outside = 0",
+                {
+                    "campaign": campaign,
+                    "test": test,
+                    "channel": name,
+                    "mask": one.mask,
+                    "outside": int(Flag.NOT_MEASURING),
+                },
+            ).fetchone()
+            measured, lost = row or (0, 0)
+            one.while_measuring = lost / measured if measured else 0.0
