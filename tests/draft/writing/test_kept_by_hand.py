@@ -174,3 +174,71 @@ def test_what_does_not_load_with_the_draft_is_left_and_told(folder: Path) -> Non
     draft_files(folder, force=True)
     load_campaign(path)
     assert "by hand is not kept" in path.read_text()
+
+
+def test_a_source_that_somebody_called_otherwise_keeps_what_was_said_of_its_signals(folder: Path) -> None:
+    as_probe(folder)
+    path = folder / "campaign.yaml"
+    path.write_text(path.read_text().replace("  log: {", "  daq: {").replace("source: log", "source: daq"))
+    load_campaign(path)
+    made = anew(folder)
+    assert made["channels"]["T_bed"]["at"] == "spindle.bearing.front"
+    assert "jump_S1" in made["calibrations"]
+    assert "'daq' is 'log' now" in path.read_text()
+
+
+def test_a_source_that_somebody_added_stays_with_its_channels(folder: Path) -> None:
+    path = folder / "campaign.yaml"
+    text = path.read_text().replace("sources:", "sources:\n  own: {reader: table, files: 'hand/{test}.dat'}", 1)
+    path.write_text(
+        text.replace("channels:", "channels:\n  hall: {source: own, signal: T, quantity: temperature, unit: K}", 1)
+    )
+    made = anew(folder)
+    assert made["sources"]["own"] == {"reader": "table", "files": "hand/{test}.dat"}
+    assert made["channels"]["hall"]["source"] == "own"
+
+
+def test_what_a_draft_cannot_hold_is_told_and_takes_nothing_else_with_it(folder: Path) -> None:
+    """Two sources of one file in the place of the draft's one."""
+    answer(folder, channels__T_bed__at="spindle.bearing.front")
+    path = folder / "campaign.yaml"
+    text = path.read_text().replace("sources:", "sources:\n  own: {reader: table, files: 'S4000.csv'}", 1)
+    path.write_text(
+        text.replace("channels:", "channels:\n  hall: {source: own, signal: T, quantity: temperature, unit: K}", 1)
+    )
+    made = anew(folder)
+    assert made["channels"]["T_bed"]["at"] == "spindle.bearing.front"
+    assert "hall" not in made["channels"]
+    note = line_of(folder, "# note: not kept")
+    assert "own of sources, for 'log' has its files now" in note
+    assert "hall of channels, for the draft has no source 'own'" in note
+    assert "hall of channels" not in line_of(folder, "# note: kept")
+
+
+def test_two_channels_of_one_signal_both_stay(folder: Path) -> None:
+    path = folder / "campaign.yaml"
+    text = path.read_text()
+    (bed,) = [x for x in text.splitlines() if x.startswith("  T_bed:")]
+    path.write_text(text.replace(bed, f"{bed.replace('T_bed:', 'first:')}\n{bed}"))
+    made = anew(folder)
+    assert made["channels"]["T_bed"] == made["channels"]["first"]
+
+
+def test_tests_that_somebody_added_stay_in_their_order(folder: Path) -> None:
+    path = folder / "campaign.yaml"
+    own = [f"  - {{id: {x}, kind: other, files: {{log: {x}.txt}}}}" for x in "cab"]
+    path.write_text(path.read_text().replace("\n  - {id: S4000", "\n" + "\n".join(own) + "\n  - {id: S4000", 1))
+    assert [t["id"] for t in anew(folder)["tests"]] == ["c", "a", "b", "S4000", "S8000", "gauge_50um"]
+
+
+def test_notes_of_several_lines_leave_every_other_line_in_its_place(folder: Path) -> None:
+    path = folder / "campaign.yaml"
+    parts = [
+        f"  - {{id: part{k}, kind: spindle, files: {{log: S8000.csv}}, window: [{k} h, {k + 0.9} h]}}" for k in (0, 1)
+    ]
+    (old,) = [x for x in path.read_text().splitlines() if "{id: S8000" in x]
+    text = path.read_text().replace(old, "\n".join(parts))
+    path.write_text(text.replace("{id: S4000,", '{id: S4000, notes: "one\\n\\ntwo: {3} # four\\n",', 1))
+    made = {t["id"]: t for t in anew(folder)["tests"]}
+    assert set(made) == {"S4000", "gauge_50um", "part0", "part1"}
+    assert made["S4000"]["notes"] == "one\n\ntwo: {3} # four\n"

@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from thermodata.draft.folder.into_sources.sources import Group
+from thermodata.draft.folder.into_sources.sources_before import files_of_sources
 from thermodata.errors import ThermodataError
 from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.reader.times.zone import zone as zone_called
@@ -84,20 +85,15 @@ def zones_before(path: Path) -> ZonesBefore:
         return ZonesBefore(found)
     sources = data.get("sources")
     zones: dict[str, str] = {}
-    files: dict[str, tuple[str, ...]] = {}
     declared: dict[str, dict[str, dict[str, Any]]] = {}
     for name, spec in (sources if isinstance(sources, dict) else {}).items():
         if not isinstance(spec, dict):
             continue
-        own = [*_listed(spec.get("files"))]
-        for test in _listed(data.get("tests")):
-            own += _listed(test["files"].get(name)) if isinstance(test, dict) and _is_dict(test.get("files")) else []
-        files[str(name)] = tuple(str(p) for p in own)
         declared[str(name)] = {key: _answered(spec[key]) for key in _NOT_KEPT if _is_dict(spec.get(key))}
         zone = spec.get("timezone")
         if isinstance(zone, str) and is_zone(zone):
             zones[str(name)] = zone
-    return ZonesBefore(zones, files, declared)
+    return ZonesBefore(zones, files_of_sources(data), declared)
 
 
 def is_zone(name: str) -> bool:
@@ -129,10 +125,6 @@ def _flow(value: Any) -> str:
 
 def _fits(pattern: str, path: str) -> bool:
     return pattern == path or pattern_of(pattern).fullmatch(path) is not None
-
-
-def _listed(value: Any) -> list[Any]:
-    return [] if value is None else list(value) if isinstance(value, list) else [value]
 
 
 def _is_dict(value: Any) -> bool:

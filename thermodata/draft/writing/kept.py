@@ -9,6 +9,7 @@ from typing import Any
 
 import yaml
 
+from thermodata.draft.folder.into_sources.sources_before import sources_in, who_reads
 from thermodata.draft.signals.told_before import NAME
 from thermodata.draft.writing.asked import ticked, ticked_where
 from thermodata.draft.writing.by_hand import SECTIONS, ByHand, entries_of, place_in
@@ -24,15 +25,26 @@ _AS_BEFORE = ("source", "signal", NAME)
 
 
 def with_answers(text: str, hand: ByHand) -> str:
-    """The text of a draft with what somebody wrote by hand; a note says what of it. SpecError where the lines do not
-    load together."""
+    """The text of a draft with what somebody wrote by hand; notes say what of it, and what is not kept. SpecError where
+    the lines do not load together."""
     lines = _lines_filled(text, hand)
-    for place, entry in hand.added.items():
-        lines = _with_entry(lines, place, entry)
+    left: list[str] = []
+    # sources first, for what names them; each goes to the head of its section, the last one before the others
+    added = [*hand.added.items()][::-1]
+    added.sort(key=lambda one: one[0][0] != "sources")
+    for place, entry in added:
+        lines, why_not = _with_entry(lines, place, entry, hand)
+        left += [f"{place[1]} of {place[0]}, {why_not}"] if why_not else []
     lines = _at_the_top(_without_replaced(lines, hand), hand.top)
-    said = [*_told(hand), *(str(key) for key in hand.top)]
-    note = f"# note: kept from the campaign file before: {one_line(with_dots(said, _SHOWN))}"
-    return "\n".join([*lines, note] if said else lines) + "\n"
+    gone = {x.partition(",")[0] for x in left}
+    said = [*(x for x in _told(hand) if x not in gone), *(str(key) for key in hand.top)]
+    notes = [f"# note: kept from the campaign file before: {one_line(with_dots(said, _SHOWN))}"] if said else []
+    if hand.sources:
+        other = [f"'{was}' is '{now}' now" for was, now in hand.sources.items()]
+        notes.append(f"# note: sources are called otherwise than before: {one_line(with_dots(other, _SHOWN))}")
+    if left:
+        notes.append(f"# note: not kept from the campaign file before: {one_line(with_dots(left[::-1], _SHOWN))}")
+    return "\n".join([*lines, *notes]) + "\n"
 
 
 def _lines_filled(text: str, hand: ByHand) -> list[str]:
@@ -57,35 +69,44 @@ def _lines_filled(text: str, hand: ByHand) -> list[str]:
 
 def _before(hand: ByHand, section: str, name: str, entry: Mapping[str, Any]) -> Place | None:
     """What somebody changed of an entry of the draft: a channel may have another name since."""
-    of = (entry.get("source"), entry.get("signal"))
+    if section == "channels" and "signal" in entry:
+        of = hand.of_signals().get((str(entry.get("source")), str(entry["signal"])))
+        if of is not None:
+            return of[0]
     for place, keys in (*hand.changed.items(), *hand.added.items()):
-        if place[0] != section:
-            continue
-        if section == "channels" and "signal" in keys and (keys.get("source"), keys["signal"]) == of:
-            return place
-        if place[1] == name and not (section == "channels" and "signal" in keys):
+        if place == (section, name) and not (section == "channels" and "signal" in keys):
             return place
     return (section, name) if (section, name) in hand.spoken else None
 
 
-def _with_entry(lines: list[str], place: Place, entry: Mapping[str, Any]) -> list[str]:
-    """The lines with a further entry at the head of its section, which may be new; unless it has it by now."""
+def _with_entry(lines: list[str], place: Place, entry: Mapping[str, Any], hand: ByHand) -> tuple[list[str], str]:
+    """The lines with a further entry at the head of its section, which may be new; unless it has it by now. (lines, why
+    it is not kept; '' where it is)."""
     section, name = place
     document = _parsed("\n".join(lines))
     if section == "channels" and "signal" in entry:
-        of = (entry.get("source"), entry["signal"])
-        if any((e.get("source"), e.get("signal")) == of for _, e in entries_of(document.data, "channels")):
-            return lines
+        of = (str(entry.get("source")), str(entry["signal"]))
+        there = any(
+            (str(e.get("source")), str(e.get("signal"))) == of for _, e in entries_of(document.data, "channels")
+        )
+        if there and hand.of_signals()[of][0] == place:
+            return lines, ""
+        if place_in(document, "channels", str(name)) is not None:
+            return lines, f"for that is called so of '{entry['signal']}', which the draft does not have"
     if place_in(document, str(section), str(name)) is not None:
-        return lines
+        return lines, ""
+    if section == "sources" and (reads := who_reads(entry, document.data)) is not None:
+        return lines, f"for '{reads}' has its files now"
+    if section != "sources" and (gone := sorted({*sources_in(entry)} - {*document.data["sources"]})):
+        return lines, f"for the draft has no source '{gone[0]}'"
     body = flow_of(entry)
     line = f"  - {body}{_KEPT}" if section == "tests" else f"  {name}: {body}{_KEPT}"
     if document.data.get(section):
         at = document.line[str(section),]
-        return [*lines[:at], line, *lines[at:]]
+        return [*lines[:at], line, *lines[at:]], ""
     empty = document.line.get((str(section),))
     head, rest = (lines[: empty - 1], lines[empty:]) if empty else _before_tests(lines, document)
-    return [*head, f"{section}:", line, *rest]
+    return [*head, f"{section}:", line, *rest], ""
 
 
 def _before_tests(lines: list[str], document: Document) -> tuple[list[str], list[str]]:
@@ -149,7 +170,8 @@ def _at_the_top(lines: list[str], top: Mapping[str, Any]) -> list[str]:
 def _told(hand: ByHand) -> Iterable[str]:
     for (_, name), keys in hand.changed.items():
         given = [str(k) for k in keys if k not in _AS_BEFORE]
-        yield f"{name} ({', '.join(given)})" if given else str(keys.get(NAME, name))
+        if given or NAME in keys:
+            yield f"{name} ({', '.join(given)})" if given else str(keys[NAME])
     yield from (f"{name} of {section}" for section, name in hand.added)
 
 
@@ -157,10 +179,19 @@ def _parsed(text: str) -> Document:
     return parse_document(text, Path("campaign.yaml"))
 
 
+class _OneLine(yaml.SafeDumper):
+    """Texts of several lines between double quotes, where a break is a letter."""
+
+
+def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = '"' if len(text.splitlines()) > 1 or text.endswith("\n") else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_OneLine.add_representer(str, _text)
+
+
 def flow_of(value: Any) -> str:
     """A value as YAML on one line."""
-    return (
-        yaml.safe_dump(value, default_flow_style=True, width=10**9, sort_keys=False, allow_unicode=True)
-        .removesuffix("\n...\n")
-        .rstrip("\n")
-    )
+    made = yaml.dump(value, Dumper=_OneLine, default_flow_style=True, width=10**9, sort_keys=False, allow_unicode=True)
+    return str(made).removesuffix("\n...\n").rstrip("\n")
