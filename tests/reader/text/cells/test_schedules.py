@@ -80,3 +80,35 @@ def test_a_table_that_is_none_of_a_data_taker_still_loses_rows_that_are_too_shor
     head = HEAD.replace("TZ", "Zone").replace(",n,", ",")
     with pytest.raises(FormatError, match="more cells than the rows"):
         read(tmp_path, [head, *FAST, *SLOW])
+
+
+@pytest.mark.parametrize("many", [600, 20_000])
+def test_schedules_follow_each_other_however_long_they_are(tmp_path: Path, many: int) -> None:
+    """The rows of the second begin behind all lines by which a layout is known, or behind the first part of a file that
+    is too long to look at whole."""
+    begin = np.datetime64("2026-03-17T09:00:00")
+    times = [str(begin + 10 * k).replace("-", "/").replace("T", " ") for k in range(many)]
+    first = [f'{t},n,{k / 10},0,0,0,""' for k, t in enumerate(times)]
+    second = [f"{t},n,,,,,,{21 + k / 1000:.3f},20.5" for k, t in enumerate(times[: many // 2])]
+    data = read(tmp_path, [HEAD, *first, *second])
+    assert not data.losses
+    assert sorted(t.size for t in data.t_ns.values()) == [many // 2, many]
+    bed = next(v for (_, name), v in data.values.items() if name == "bed (degC)")
+    assert bed[-1] == pytest.approx(21 + (many // 2 - 1) / 1000, abs=1e-3)
+
+
+def test_a_schedule_without_a_row_has_no_time_of_its_own(tmp_path: Path) -> None:
+    data = read(tmp_path, [HEAD, *FAST])
+    assert next(iter(data.t_ns.values())).size == 240
+    assert not [s.name for s in data.recording.signals if "Timestamp" in s.name]
+
+
+def test_one_that_nothing_sampled_shows_keeps_its_values_at_their_times(tmp_path: Path) -> None:
+    """A few rows amid a long file."""
+    begin = np.datetime64("2026-03-17T09:00:00")
+    times = [str(begin + 10 * k).replace("-", "/").replace("T", " ") for k in range(40_000)]
+    rows = [f'{t},n,{k / 10},0,0,0,""' for k, t in enumerate(times)]
+    rows.insert(9_000, f"{times[8_999][:-1]}5,n,,,,,,21.5,20.5")
+    data = read(tmp_path, [HEAD, *rows])
+    (bed,) = [v for (_, name), v in data.values.items() if name == "bed (degC)"]
+    assert list(bed[np.isfinite(bed)]) == [21.5]

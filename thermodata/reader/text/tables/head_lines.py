@@ -49,7 +49,7 @@ class HeadLines:
     may stand in quotes. named: the names that stand before each value, which are in columns here. stamped: what parts
     cells of lines before which a terminal wrote its clock, which is the first cell here; '' where none did. columns:
     where cells stand that blanks part, if these are fixed places. schedules: of a dataTaker, each with its own time
-    here."""
+    here, and with rows at the end of the top where it begins far below."""
 
     head: Sequence[str]
     top: Sequence[str]
@@ -98,12 +98,13 @@ def head_lines(
         first = replace(first, head=tuple(map(each, first.head)), rest=tuple(map(each, first.rest)))
         head = list(map(each, head))
         return HeadLines(head, top_of(head), first, "\t", False, False, named)
-    if not said.get("delimiter") and (schedules := schedules_of((*top, *first.rest))) is not None:
+    if not said.get("delimiter") and (schedules := schedules_of((*head, *first.rest))) is not None:
         first = replace(
             first, head=tuple(map(schedules.parted, first.head)), rest=tuple(map(schedules.parted, first.rest))
         )
         head = list(map(schedules.parted, head))
-        return HeadLines(head, top_of(head), first, ",", False, True, schedules=schedules)
+        top = schedules.with_each(top_of(head), (*head[len(top_of(head)) :], *first.rest))
+        return HeadLines(head, top, first, ",", False, True, schedules=schedules)
     stamped = "" if said.get("delimiter") else stamped_by((*top, *first.rest))
     if stamped:
         with_time = partial(with_stamp, delimiter=stamped)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from thermodata.reader.text.cells.lines.delimiter import fields
 from thermodata.reader.text.cells.values.quotes import clean
@@ -19,24 +19,33 @@ _END = re.compile(r"\w+\.ALtext")  # the last column of a schedule: the text of 
 _DATED = re.compile(r"\s*\"?\d{4}[/-]\d\d?[/-]\d\d? \d")
 _NO_ZONE = ("n", "")  # what the column of the zone says where the clock has none
 _LOOKED_AT = 20  # lines, in which the header stands
+_ROWS = 50  # of a schedule, by which its time is known
 
 
 @dataclass(frozen=True, slots=True)
 class Schedules:
-    """width: the cells of the header; groups: first and behind the last column of each schedule; zone: whether the
-    column of the zone says one, and is kept; seen: whether a row of each schedule was met."""
+    """width: the cells of the header; groups: first and behind the last column of each schedule that was met, with
+    those behind it of others that were not; zone: whether the column of the zone says one, and is kept."""
 
     width: int
     groups: tuple[tuple[int, int], ...]
     zone: bool
-    seen: tuple[bool, ...]
 
     @property
     def times(self) -> list[int]:
-        """The columns of the times of the schedules that were met, counted from 1: of the beginning of a file that may
-        be one alone."""
+        """The columns of the times of the schedules, counted from 1."""
         widths = [1 + b - a for a, b in self.groups]
-        return [1 + sum(widths[:k]) + (self.zone and k > 0) for k, met in enumerate(self.seen) if met]
+        return [1 + sum(widths[:k]) + (self.zone and k > 0) for k in range(len(widths))]
+
+    def with_each(self, top: Sequence[str], below: Sequence[str]) -> tuple[str, ...]:
+        """The first lines, with rows of those schedules that only have any below them. All as `parted` makes them."""
+
+        def met(line: str) -> set[int]:
+            cells = fields(line, _DELIMITER)
+            return {t for t in self.times if t <= len(cells) and _DATED.match(cells[t - 1])}
+
+        late = set(self.times).difference(*map(met, top))
+        return (*top, *(line for t in sorted(late) for line in islice((b for b in below if t in met(b)), _ROWS)))
 
     def parted(self, line: str) -> str:
         """A header or a row with a time before each schedule that has values in it; any other line as it is."""
@@ -64,15 +73,17 @@ def schedules_of(lines: Sequence[str]) -> Schedules | None:
     """The schedules of a dataTaker's lines; None of any other text."""
     rows = (fields(_PROMPT.sub("", line), _DELIMITER) for line in lines[:_LOOKED_AT])
     head = next((cells for cells in rows if _is_head(cells)), None)
-    dated = [fields(line, _DELIMITER) for line in lines if _DATED.match(line)]
+    dated = [fields(line, _DELIMITER) for line in lines if _DATED.match(line)] if head is not None else []
     if head is None or not dated:
         return None
     names = [clean(c) for c in head]
     ends = [i + 1 for i, name in enumerate(names) if _END.fullmatch(name)]
     edges = sorted({len(_HEAD), *ends, len(names)})
-    groups = tuple(pairwise(edges))
-    seen = tuple(any(any(map(clean, cells[a:b])) for cells in dated) for a, b in groups)
-    return Schedules(len(names), groups, any(clean(c[1]) not in _NO_ZONE for c in dated if len(c) > 1), seen)
+    every = [(a, b) for a, b in pairwise(edges) if any(any(map(clean, cells[a:b])) for cells in dated)]
+    # of one that may come later nothing is known: its columns stay beside those before them
+    starts = [len(_HEAD), *(a for a, _ in every[1:])]
+    groups = tuple(pairwise([*starts, len(names)]))
+    return Schedules(len(names), groups, any(clean(c[1]) not in _NO_ZONE for c in dated if len(c) > 1))
 
 
 def _is_head(cells: Sequence[str]) -> bool:
