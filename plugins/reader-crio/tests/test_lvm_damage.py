@@ -12,7 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load
 
-from .test_lvm import PRAGUE, START, S, head, packet, read
+from .lvm_files import PRAGUE, START, S, head, packet, read
 
 
 def test_a_cut_last_line_is_a_loss_and_not_a_value(tmp_path: Path) -> None:

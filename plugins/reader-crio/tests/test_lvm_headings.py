@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.schema.flag import Flag
 
-from .test_lvm import head, packet, read
+from .lvm_files import head, packet, read
 
 
 def reordered(*units: tuple[str, str], names: tuple[str, str] = ("b", "a")) -> str:
