@@ -16,8 +16,10 @@ from tests.draft.labs import START, local, numbers, speeds, text, warm, workbook
 N = 360
 
 
-def _write(folder: Path, day: int, names: list[str], order: list[int] | None = None, stem: str = "P") -> None:
-    columns = [numbers(warm(N, low, rise, 0.3, 1), 3) for low, rise in ((0, 30), (21, 6), (20, 2))]
+def _write(
+    folder: Path, day: int, names: list[str], order: list[int] | None = None, stem: str = "P", more: float = 0
+) -> None:
+    columns = [numbers(warm(N, low + more, rise, 0.3, 1), 3) for low, rise in ((0, 30), (21, 6), (20, 2))]
     columns += [numbers(speeds(N, [3000]), 0)]
     times = local(N, 10, START + timedelta(days=day), "UTC", "%Y-%m-%dT%H:%M:%SZ")
     order = order or list(range(len(names)))
@@ -89,3 +91,17 @@ def test_sheets_whose_columns_are_called_otherwise_are_tests_unless_they_ran_at_
     assert (source.get("table") == {"sheet": "{test}"}) is sheets
     asked = "'Z' and 'dZ', 'Bett' and 'T_bed', 'Halle' and 'T_hall'"
     assert (asked in (tmp_path / "campaign.yaml").read_text("utf-8")) is sheets
+
+
+def test_of_two_loggers_each_is_asked_of_itself(tmp_path: Path, say: Say) -> None:
+    """Both call their columns otherwise from the third day on: what one logger has is no channel of the other."""
+    for day in range(6):
+        for k, stem in enumerate(("logA_S", "logB_S")):
+            _write(tmp_path, day, BEFORE if day < 3 else AFTER, stem=stem, more=k)
+    assert say("init", tmp_path).code == 0
+    draft = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    first, second = [line for line in draft.splitlines() if "under two names?" in line]
+    assert "'dZ' and 'probe_Z'," in first
+    assert "in logA_S3, logA_S4, logA_S5: channels:" in first
+    assert "'dZ_2' and 'probe_Z_2'," in second
+    assert "in logB_S3, logB_S4, logB_S5: channels:" in second

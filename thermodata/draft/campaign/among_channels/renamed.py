@@ -4,8 +4,10 @@ is of the same quantity and axis or place, and never beside the other in one tes
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 from thermodata.draft.campaign.parts import DraftChannel, DraftSource
 from thermodata.draft.files.raw_file import RawFile
@@ -28,7 +30,7 @@ def with_renamed_asked(
     live = [g for g in groups if g.tests and not g.shared and not any(f.sensor or f.block for f in g.files)]
     asked: dict[str, str] = {}
     for k, group in enumerate(live):
-        first = next(g for g in live[: k + 1] if g is group or _is_before(g, group))
+        first = _first_of(group, live[:k], live)
         before = _layout(next(iter(first.tests.values()))[0], first.source, channels)
         pairs = _in_tests(before, {t: _layout(fs[0], group.source, channels) for t, fs in group.tests.items()})
         if pairs:
@@ -49,6 +51,27 @@ def _in_tests(before: Sequence[DraftChannel], layouts: Mapping[str, Sequence[Dra
         for t, here in layouts.items()
     }
     return {t: of for t, of in pairs.items() if of and len({a.name for a, _ in of}) == len(of)}
+
+
+def _first_of(group: Group, before: Sequence[Group], live: Sequence[Group]) -> Group:
+    """The source that one may have been before its columns were called otherwise: of several that no test has beside it
+    the one whose files are called most alike, for two loggers may both have changed. Itself where that is none of
+    those before it."""
+    others = [g for g in live if g is not group and _is_before(g, group)]
+    most = max((_likeness(g, group) for g in others), default=0)
+    return next((g for g in before if g in others and _likeness(g, group) == most), group)
+
+
+def _likeness(one: Group, other: Group) -> int:
+    """How many letters the paths of two sources have in common at their beginning and end, whatever their numbers."""
+    a, b = (re.sub(r"\d+", "0", str(next(iter(g.tests.values()))[0].path)) for g in (one, other))
+    if a == b:
+        return len(a) + len(b)
+    return _begin_alike(a, b) + _begin_alike(a[::-1], b[::-1])
+
+
+def _begin_alike(a: str, b: str) -> int:
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False)))
 
 
 def _is_before(first: Group, group: Group) -> bool:
