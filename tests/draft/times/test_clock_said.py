@@ -92,3 +92,26 @@ def test_a_zone_that_a_text_says_of_a_clock_is_offered_at_its_question(
 def test_a_sentence_longer_than_anybody_writes_says_nothing(hostile: str) -> None:
     """Its patterns take the square of its length: ten minutes of these."""
     assert offset_of(hostile + "clock 3 min slow") is None
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "clock of the DAQ is not 5 min slow",
+        "clock synchronised, no longer 5 min slow",
+        "Uhr geht nicht mehr 5 min nach",
+        "recorder: slow channel every 10 s",
+        "fast logger: period 0.1 s",
+        "Logger slow, Abtastung 5 s",
+        "the clock is 1,200 s slow",
+    ],
+)
+def test_what_is_not_so_or_of_how_often_it_measures_is_no_offset(sentence: str) -> None:
+    assert offset_of(sentence) is None
+
+
+@pytest.mark.parametrize(
+    ("sentence", "offset"), [("the clock is 1,20 s slow", "1.2 s"), ("logger 1.5 h ahead", "-1.5 h")]
+)
+def test_and_what_is_so_is(sentence: str, offset: str) -> None:
+    assert offset_of(sentence) == offset

@@ -46,6 +46,12 @@ _FAST = (
     rf"fast|ahead|{_OF_UHR}vor{_BEHIND}|(?:geht|ging|gehen)[^.;\n]*\bvor|"
     r"napred|napřed|avance|anticipo|avanti|adelant\w+"
 )
+# what is not so, or no longer; and what is slow or fast of how often it measures
+_NOT_SO = (
+    r"\b(?:not|never|no longer|isn't|wasn't|nicht|nie|kein\w*|pas|non|no es|corrected|adjusted|reset|synchroni[sz]ed|"
+    r"korrigiert|gestellt|synchronisiert|corrigée?|corretto|seřízen\w*)\b"
+)
+_HOW_OFTEN = r"\b(?:every|interval\w*|period\w*|sampl\w*|rate|abtast\w*|takt\w*|alle|toutes les|ogni|cada|každ\w+)\b"
 _SHOWN = 80  # letters of a sentence
 _LONGEST = 600  # letters of a sentence that says it: the patterns take the square of them
 _UNITS = {"s": "s", "m": "min", "h": "h", "o": "h"}
@@ -78,6 +84,8 @@ def offset_of(sentence: str) -> str | None:
     amounts = set(_amounts(sentence))
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
     of_clock = re.search(_CLOCK, sentence, re.IGNORECASE) is not None
+    if re.search(f"{_NOT_SO}|{_HOW_OFTEN}", sentence, re.IGNORECASE):
+        return None
     if len(amounts) != 1 or _NO_AMOUNT in amounts or not of_clock or bool(slow) == bool(fast):
         return None
     return f"{'-' if fast else ''}{amounts.pop()}"
@@ -89,7 +97,8 @@ def _amounts(sentence: str) -> Iterator[str]:
     parts: list[tuple[str, str]] = []
     end = 0
     for found in _AMOUNT.finditer(sentence):
-        if _PART.search(sentence[: found.start()]) or _RATE.match(sentence[found.end() :]):
+        part = _PART.search(sentence[: found.start()]) or re.fullmatch(r"\d{1,3}[.,]\d{3}", found["by"])
+        if part or _RATE.match(sentence[found.end() :]):
             yield _NO_AMOUNT
             continue
         word = found["unit"].lower()
