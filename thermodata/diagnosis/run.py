@@ -25,6 +25,7 @@ from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.responses import response_index
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.tell.of_version.as_stored import by_its_own_parameters
+from thermodata.diagnosis.tell.of_version.undetermined import undetermined
 from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
@@ -44,8 +45,9 @@ from thermodata.store.base.counting import watched
 from thermodata.version import __version__
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from thermodata.schema.answers.result import Parameter
     from thermodata.store import Store
     from thermodata.store.base.counting import Tell
     from thermodata.view.grid.dataset import Dataset, TestData
@@ -110,7 +112,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     without = still_without([one.result.notes for one in model_chain(store, model.identity)], open_tests)
     asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version, "made_without": without}
     found = _with_doubtful(_with_unasked(outcome.diagnosis.model_copy(update=asked_on), model), model)
-    if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
+    stored = find_model(store, model.identity)
+    found = _with_undetermined(found, model, stored.result.parameters)
+    if stored.data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))
     before = kept_answer(store, model.identity, _question(response))
     same = told_again(None if before is None else Diagnosis.model_validate_json(before), found)
@@ -140,6 +144,12 @@ def _with_unasked(found: Diagnosis, model: Loaded) -> Diagnosis:
     of = next(r for r in model.fitted.responses if r.name == found.response)
     names = only_by_name(others, model.data.channels, tests, of.name, present(of))
     return found.model_copy(update={"unknown": found.unknown.model_copy(update={"by_name": names})})
+
+
+def _with_undetermined(found: Diagnosis, model: Loaded, known: Mapping[str, Parameter]) -> Diagnosis:
+    """With the effects of the model whose gain its fit does not determine. known: parameters of the fit."""
+    of = next(r for r in model.fitted.responses if r.name == found.response)
+    return found.model_copy(update={"undetermined": undetermined(model.fitted, of, model.data, known)})
 
 
 def confirm_choice(store: Store, ref: str, candidate: str | int, response: str | None = None) -> tuple[Confirmed, bool]:

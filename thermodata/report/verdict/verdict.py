@@ -16,6 +16,7 @@ from thermodata.report.verdict.left_over import (
     on_left_out,
     stays,
 )
+from thermodata.report.verdict.not_determined import not_determined
 from thermodata.report.verdict.refined import can_be_refined, explained_by_refining, named, told_with_errors
 from thermodata.report.verdict.stopped import asks_locked, better_with, is_likely, stopped
 from thermodata.report.verdict.twins import by_name, not_told_from
@@ -93,9 +94,10 @@ def other_heat(one: Candidate) -> str:
 
 
 def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures: every claim, every refinement, what of the logs was put right
-    before, which clocks are in doubt, and which tests the model was made without."""
-    parts = [_verdict(found), put_right(found.put_right), without_steps(found)]
+    """The verdict in one sentence with its figures: every claim, every refinement, which effects of the model its
+    tests do not determine, what of the logs was put right before, which clocks are in doubt, and which tests the model
+    was made without."""
+    parts = [_verdict(found), *not_determined(found), put_right(found.put_right), without_steps(found)]
     return "; ".join(filter(None, [*parts, *found.doubtful_clocks, *_made_without(found)]))
 
 

@@ -9,6 +9,7 @@ from pydantic import BeforeValidator
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.schema.answers.result import Result
+from thermodata.schema.answers.undetermined import Undetermined
 
 
 class WeakSpot(Result):
@@ -226,6 +227,7 @@ class Diagnosis(Result):
     doubtful_clocks: a sentence for each source whose clock could not be aligned in open tests, and on which the answer
         hangs: it was asked as the logs are dated; empty in an answer of an older version
     started_on: open tests that begin with something on that may have run before
+    undetermined: effects of the model whose gain its tests do not determine; empty in an answer of an older version
     data_version: digest of the data that it was asked on; null in an answer of an older version
     """
 
@@ -261,4 +263,5 @@ class Diagnosis(Result):
     locked_tests: int | None = None
     doubtful_clocks: list[str] = []
     started_on: list[StartedOn] = []
+    undetermined: list[Undetermined] = []
     data_version: str | None = None
