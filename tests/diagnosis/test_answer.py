@@ -24,6 +24,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.report.collected.spots import weak_spots_of
+from thermodata.report.verdict.verdict import verdict_sentence
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec, Model, Response
@@ -367,3 +368,12 @@ def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(
     assert told.fitted_rmse_um == pytest.approx(float(np.sqrt(np.mean(own**2))))
     assert found.fitted_rmse_um is not None
     assert told.fitted_rmse_um > 1.01 * found.fitted_rmse_um
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_an_answer_counts_the_open_tests_that_took_part_and_says_what_few_ones_lack(count: int) -> None:
+    found = diagnosis(make_data(tests=count + 1), base())
+    assert (found.open_tests, found.open_tests_asked, found.locked_tests) == (count, count, 1)
+    assert f"{count} open test{'s' if count > 1 else ''} took part, so errors are of parts of" in verdict_sentence(
+        found
+    )

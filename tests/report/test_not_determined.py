@@ -27,8 +27,8 @@ def test_it_is_named_with_its_gain_and_what_the_model_leaves_without_it() -> Non
     text = said(one(elsewhere="V03", elsewhere_um=7.0, left_out_um=7.14, left_out_without_um=1.58))
     assert (
         "; the tests that were fitted do not determine screw: its gain is 3.20 um/K (95 %: -0.100 to 6.50), by which "
-        "it does 7.00 um in V03, against 0.500 um at most in those, and where each open test is foretold by a fit to the "
-        "others, the model errs by 7.14 um with it and by 1.58 um without: take it out (thermodata remove 01234567 "
+        "it does 7.00 um in V03, against 0.500 um at most in those, and where each open test is foretold by a fit to "
+        "the others, the model errs by 7.14 um with it and by 1.58 um without: take it out (thermodata remove 01234567 "
         "screw) until there is a test in which T_nut moves and the rest does not"
     ) in text
 

@@ -90,6 +90,8 @@ def in_contract(
         responses=_responses_left(case),
         by_choice=by_choice,
         started_on=started_with(case.response, case.logged),
+        open_tests=len(case.logged),
+        open_tests_asked=len({b.test.key for b in problem.blocks}),
         locked_unasked=_locked_unasked(case, found),
         locked_tests=len(case.locked) + len(case.shut),
     )

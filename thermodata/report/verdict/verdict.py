@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.verdict.could_hide import could_be, was_not_asked
+from thermodata.report.verdict.few_tests import few_tests
 from thermodata.report.verdict.left_over import (
     as_of_nothing,
     left_over,
@@ -94,10 +95,16 @@ def other_heat(one: Candidate) -> str:
 
 
 def verdict_sentence(found: Diagnosis) -> str:
-    """The verdict in one sentence with its figures: every claim, every refinement, which effects of the model its
-    tests do not determine, what of the logs was put right before, which clocks are in doubt, and which tests the model
-    was made without."""
-    parts = [_verdict(found), *not_determined(found), put_right(found.put_right), without_steps(found)]
+    """The verdict in one sentence with its figures: every claim, every refinement, what is wanting where few tests are
+    open, which effects of the model they do not determine, what of the logs was put right before, which clocks are in
+    doubt, and which tests the model was made without."""
+    parts = [
+        _verdict(found),
+        few_tests(found),
+        *not_determined(found),
+        put_right(found.put_right),
+        without_steps(found),
+    ]
     return "; ".join(filter(None, [*parts, *found.doubtful_clocks, *_made_without(found)]))
 
 
@@ -165,8 +172,7 @@ def _verdict(found: Diagnosis) -> str:
     return {
         "effect": "missing: an effect that the data point to",
         "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
-        "not_testable": "these tests can't tell which effect is missing: one is claimed only where it also foretells a "
-        "test that it was not fitted to",
+        "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
 
 

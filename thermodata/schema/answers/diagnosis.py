@@ -221,6 +221,8 @@ class Diagnosis(Result):
     responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
     by_choice: whether the response was asked for
     not_asked: effects of the library whose plugins failed
+    open_tests: how many tests are open, and open_tests_asked: how many of them took part: the others lack samples or a
+        channel of the model, or are left out for what is wrong with their logs; null in an answer of an older version
     locked_unasked: locked tests of the model that could not be asked: what the model or a claim reads was not logged
         there, or they repeat an open test; empty in an answer of an older version
     locked_tests: how many tests are locked, with those that could not be asked; null in an answer of an older version
@@ -259,6 +261,8 @@ class Diagnosis(Result):
     responses: list[ResponseLeft] = []
     by_choice: bool = False
     not_asked: list[NotAsked] = []
+    open_tests: int | None = None
+    open_tests_asked: int | None = None
     locked_unasked: list[LockedUnasked] = []
     locked_tests: int | None = None
     doubtful_clocks: list[str] = []
