@@ -56,7 +56,7 @@ def test_the_error_before_on_locked_tests_is_told_of_the_model_as_it_is_fitted_t
     assert best.claimed
     assert best.locked_rmse_um_fitted == pytest.approx(rmse(fitted.responses[0], locked))
     assert best.locked_rmse_um_fitted != pytest.approx(best.locked_rmse_um_before, rel=0.02)
-    assert "before is the model refitted to all open tests; as it is fitted it leaves" in best.why
+    assert "before is the model once it is fitted to all open tests; as it is fitted it leaves" in best.why
 
 
 def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(of_a_missing_screw: Diagnosis) -> None:
@@ -158,7 +158,7 @@ def test_an_open_test_that_stands_there_twice_counts_once_and_is_told(of_a_missi
     assert (said.test, "'t2'" in said.why) == ("again", True)
     one, other = of_a_missing_screw.candidates[0], twice.candidates[0]
     # the model as it is fitted has the copy twice
-    why = other.why.partition(" (before is the model refitted")[0]
+    why = other.why.partition(" (before is the model once it is fitted")[0]
     assert (other.id, other.probability, why) == (one.id, one.probability, one.why)
 
 

@@ -154,9 +154,9 @@ def test_a_test_that_rises_is_named_beside_what_holds_and_a_response_is_no_cause
     [
         (None, 10.9, True, "14.2 -> 10.9 um", ""),
         (14.3, 10.9, True, "14.2 -> 10.9 um", ""),  # nothing else is printed for what says the same
-        (19.0, 10.9, True, "19.0 (14.2 refitted to all open tests) -> 10.9 um", ""),
-        (19.0, 15.2, False, "19.0 (14.2 refitted to all open tests) -> 15.2 um", "leaves more there"),
-        (9.0, 10.9, True, "9.00 (14.2 refitted to all open tests) -> 10.9 um", "leaves less there"),
+        (19.0, 10.9, True, "19.0 (14.2 once that model is fitted to all open tests) -> 10.9 um", ""),
+        (19.0, 15.2, False, "19.0 (14.2 once that model is fitted to all open tests) -> 15.2 um", "leaves more there"),
+        (9.0, 10.9, True, "9.00 (14.2 once that model is fitted to all open tests) -> 10.9 um", "leaves less there"),
     ],
 )
 def test_a_choice_is_told_from_the_model_that_the_user_has(

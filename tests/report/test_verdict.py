@@ -480,27 +480,32 @@ def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by
 @pytest.mark.parametrize(
     ("scored", "shape", "said"),
     [
-        ((1.56, 0.777, 0.35), (None, None), "; locked tests 1.56 (0.777 refitted to all open tests) -> 0.350 um"),
+        (
+            (1.56, 0.777, 0.35),
+            (None, None),
+            "; locked tests 1.56 (0.777 once that model is fitted to all open tests) -> 0.350 um",
+        ),
         ((0.78, 0.777, 0.35), (None, None), "; locked tests 0.777 -> 0.350 um"),
         (
             (0.747, 2.73, 0.9),
             (None, None),
-            "; locked tests 0.747 (2.73 refitted to all open tests) -> 0.900 um: with the model as it is fitted it is "
-            "less; this is with one lag for each effect: add may give it a second one, and tells what that version "
-            "leaves",
+            "; locked tests 0.747 (2.73 once that model is fitted to all open tests) -> 0.900 um: with the model "
+            "as it is fitted it is less; this is with one lag for each effect: add may give it a second one, "
+            "and tells what that version leaves",
         ),
         (
             (1.56, 0.777, 0.83),
             (0.574, 0.656),
-            "; locked tests 1.56 (0.777 refitted to all open tests) -> 0.830 um, by their shape 0.574 -> 0.656 um from "
-            "the refitted one on: they get better than with the model as it is fitted, and worse than with the "
-            "refitted one",
+            "; locked tests 1.56 (0.777 once that model is fitted to all open tests) -> 0.830 um, by their "
+            "shape 0.574 -> 0.656 um from there on: they get better than with the model as it is fitted, and worse "
+            "than once that model is fitted to all open tests",
         ),
         (
             (1.56, 0.777, 0.83),
             (0.7, 0.5),
             "; locked tests get better by their shape where it acts (0.700 -> 0.500 um), which a claim is judged by, "
-            "and as they are scored, from their first samples on, 1.56 (0.777 refitted to all open tests) -> 0.830 um",
+            "and as they are scored, from their first samples on, 1.56 (0.777 once that model is fitted to all "
+            "open tests) -> 0.830 um",
         ),
     ],
 )
@@ -735,14 +740,15 @@ def test_the_page_has_the_model_as_it_is_fitted_before_what_is_claimed(data: Rep
     added = dataclasses.replace(data, reason=asked, effects=("air", "screw"))
     (row,) = (r for r in error_rows(added) if r.word == "locked")
     assert (row.before, row.after) == (7.0, 2.0)
-    assert "before: 5 um refitted to all open tests" in row.notes
+    assert "before: 5 um once that model is fitted to all open tests" in row.notes
     # what the refit takes away is no merit of the effect
-    said = "The error on locked tests falls: 7.00 (5.00 refitted to all open tests) -> 2.00 um (-60 % from the refitted"
+    both = "7.00 (5.00 once that model is fitted to all open tests) -> 2.00 um (-60 % from 5.00"
+    said = f"The error on locked tests falls: {both}"
     assert error_sentence(added).startswith(said)
     assert "\N{MINUS SIGN}60\N{NO-BREAK SPACE}%" in render(added)
     (row,) = (r for r in error_rows(dataclasses.replace(data, diagnosis=asked, reason=None)) if r.word == "locked")
     assert (row.before, row.after) == (None, 7.0)
-    assert "5 um refitted to all open tests; 2 um with what is claimed" in row.notes
+    assert "5 um once that model is fitted to all open tests; 2 um with what is claimed" in row.notes
 
 
 def test_errors_of_claims_on_other_data_or_of_another_fit_are_none_of_the_version(data: ReportData) -> None:

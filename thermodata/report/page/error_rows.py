@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.modelling.compare.common import on_common
 from thermodata.report.collected.data import ReportData
-from thermodata.report.verdict.candidate_errors import beside, left_out_tests
+from thermodata.report.verdict.candidate_errors import ONCE_FITTED, beside, left_out_tests
 from thermodata.report.verdict.left_over import in_parts
 from thermodata.report.verdict.verdict import claims_of
 from thermodata.report.words.glossary import ERRORS, PARTS
@@ -99,7 +99,7 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
         if after is not None and before is not None:
             # what is claimed, but not added, is no error of this model yet: its own is the one before
             own = before if c.locked_rmse_um_fitted is None else c.locked_rmse_um_fitted
-            refitted = "" if own == before else f"{before:.3g} {of.unit} refitted to all open tests"
+            refitted = "" if own == before else f"{before:.3g} {of.unit} {ONCE_FITTED}"
             if claims:
                 told, other = refitted and f"before: {refitted}", before if refitted else None
                 scored = data.left_on_locked

@@ -71,7 +71,7 @@ def error_sentence(data: ReportData) -> str:
     if row.refitted is None:
         return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {row.unit} ({changed})"
     figures = from_fitted(row.before, row.refitted, row.after).removesuffix(" um")
-    return f"{what} {verb}: {figures} {row.unit} ({changed} from the refitted one)"
+    return f"{what} {verb}: {figures} {row.unit} ({changed} from {number(row.refitted)})"
 
 
 def _foretold(data: ReportData) -> str:

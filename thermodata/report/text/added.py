@@ -11,6 +11,7 @@ from thermodata.modelling.versions.same_tests import note_on_the_same_tests
 from thermodata.report.collected.lost import lost_sentence
 from thermodata.report.text.fit import leveled
 from thermodata.report.text.table import prose, table
+from thermodata.report.verdict.candidate_errors import ONCE_FITTED
 from thermodata.report.words.glossary import explained
 from thermodata.report.words.numbers import base_role, change, number, pooled, tests_of_role
 from thermodata.schema.words.sentences import listed
@@ -69,7 +70,7 @@ def _on_locked(result: FitResult) -> str:
     if before is None or after is None or len(result.responses) > 1:
         return ""
     own = before if result.locked_rmse_um_fitted is None else result.locked_rmse_um_fitted
-    beside = "" if own == before else f" ({number(before)} refitted to all open tests)"
+    beside = "" if own == before else f" ({number(before)} {ONCE_FITTED})"
     return (
         f"locked tests, opened for what the diagnosis claims: {number(own)}{beside} -> {number(after)} um, of this "
         "version as it is"

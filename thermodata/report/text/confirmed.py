@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.text.table import table
-from thermodata.report.verdict.candidate_errors import from_fitted
+from thermodata.report.verdict.candidate_errors import ONCE_FITTED, from_fitted
 from thermodata.report.verdict.verdict import probability, put_right
 from thermodata.report.words.numbers import number
 
@@ -55,7 +55,7 @@ def _other_way(result: Confirmed) -> str:
     if before is None or after is None or fitted is None or (after < fitted) == (after < before):
         return ""
     return (
-        "that is beside the refitted model, which has all of these but the effect; the model as it is fitted leaves "
+        f"before is what it leaves {ONCE_FITTED}; the model as it is fitted leaves "
         f"{'more' if after < fitted else 'less'} there, as scored, than with it"
     )
 

@@ -19,6 +19,8 @@ LEAST_TESTS = 3
 """of so many at least,"""
 SAME = 0.02
 """where the tests make the error that is told."""
+ONCE_FITTED = "once that model is fitted to all open tests"
+"""Of the model that stands beside the user's own: what it gains is by more tests, and by no effect."""
 LAGS = "; this is with one lag for each effect: add may give it a second one, and tells what that version leaves"
 """Of what is foretold to get no better than the model as it is fitted."""
 OTHERWISE = 1.5
@@ -107,8 +109,8 @@ def _locked_errors(claims: Sequence[Candidate]) -> str:
             return f"; locked tests get worse{all_of} ({figures}, by their shape {course}){_all_the_same(claims)}"
         than = "worse" if after > before and shape[1] > shape[0] else "no better"
         return (
-            f"; locked tests{all_of} {figures}, by their shape {course} from the refitted one on: they get better than "
-            f"with the model as it is fitted, and {than} than with the refitted one"
+            f"; locked tests{all_of} {figures}, by their shape {course} from there on: they get better than with the "
+            f"model as it is fitted, and {than} than {ONCE_FITTED}"
             f"{_all_the_same(claims)}"
         )
     if better:
@@ -136,9 +138,9 @@ def _all_the_same(claims: Sequence[Candidate]) -> str:
 
 
 def on_locked(one: Candidate) -> tuple[str, bool]:
-    """('1.56 (0.777 refitted to all open tests) -> 0.830 um', whether they get better than with the model as it is
-    fitted): before is the model that the user has; the one that is refitted stands beside it where it says otherwise,
-    and alone in answers of older versions, which have no other."""
+    """('1.56 (0.777 once that model is fitted to all open tests) -> 0.830 um', whether they get better than with
+    the model as it is fitted): before is the model that the user has; the same fitted to all open tests stands beside
+    it where it says otherwise, and alone in answers of older versions, which have no other."""
     before, after, fitted = one.locked_rmse_um_before, one.locked_rmse_um_after, one.locked_rmse_um_fitted
     if before is None or after is None:
         return "", False
@@ -149,7 +151,7 @@ def from_fitted(fitted: float | None, refitted: float, after: float) -> str:
     """The errors of a model as it is fitted, refitted to all open tests, and with more: the first where it is known and
     says otherwise than the second."""
     own = users_own(fitted, refitted)
-    beside = "" if own == refitted else f" ({number(refitted)} refitted to all open tests)"
+    beside = "" if own == refitted else f" ({number(refitted)} {ONCE_FITTED})"
     return f"{number(own)}{beside} -> {number(after)} um"
 
 

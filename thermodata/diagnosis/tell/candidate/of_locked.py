@@ -65,8 +65,8 @@ def _as_fitted(held: Confirmation, unit: str) -> str:
     if held.stands is None or held.before is None or math.isclose(held.stands, held.before, rel_tol=_SAME):
         return ""
     return (
-        f" (before is the model refitted to all open tests; as it is fitted it leaves {short(held.stands)} {unit} "
-        "there from first samples on)"
+        f" (before is the model once it is fitted to all open tests; as it is fitted it leaves {short(held.stands)} "
+        f"{unit} there from first samples on)"
     )
 
 
