@@ -13,7 +13,14 @@ import pytest
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.locked.confirmation import Confirmation
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
-from thermodata.diagnosis.tell.advising.next_test import to_bear_out, to_decide, to_exclude, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.advising.next_test import (
+    to_bear_out,
+    to_decide,
+    to_exclude,
+    to_separate,
+    to_tell_apart,
+    to_tell_parts,
+)
 from thermodata.diagnosis.tell.advising.to_find import to_find
 from thermodata.diagnosis.tell.candidate.ladder import of_probability
 from thermodata.diagnosis.tell.candidate.of_claim import in_spite_of, placeless_limit
@@ -389,6 +396,35 @@ def test_one_effect_that_several_parts_say_alike_asks_which_part(
     assert (said or "") in (found or "")
     if mine == ("n",) and said:
         assert (found or "").startswith("a:n may be heat of T_bearing (table.bearing) or T_motor (table.motor)")
+
+
+def told_apart(*twins: tuple[str, str]) -> str:
+    """twins: effect and channel, of a claim by the temperature of the bearing."""
+    some = [scored(effect, channels=(channel,)) for effect, channel in twins]
+    return to_tell_apart(scored("a", channels=("T_bearing",)), some, PARTS) or ""
+
+
+def test_the_other_part_that_a_claim_may_be_is_named_before_another_effect() -> None:
+    """Of a front bearing that may as well be the rear one the advice told the motion from it, and no word of the
+    rear."""
+    both = told_apart(("b", "n"), ("a", "T_rear"))
+    parts, _, other = both.partition("; and to tell ")
+    assert parts.startswith(
+        "a:T_bearing may be heat of T_bearing (table.bearing) or T_rear (table.bearing.rear); to tell"
+    )
+    assert other.startswith("a:T_bearing from b:n: n may be what warms T_bearing")
+
+
+def test_an_effect_that_a_named_part_drives_is_told_from_it_once() -> None:
+    said = told_apart(("b", "T_rear"))
+    assert said.startswith("a:T_bearing may be heat of T_bearing (table.bearing) or T_rear")
+    assert "; and to tell" not in said
+
+
+def test_where_no_other_part_or_no_other_effect_says_the_same_nothing_is_told_of_it() -> None:
+    assert told_apart(("b", "n")).startswith("to tell a:T_bearing from b:n: ")
+    assert told_apart(("a", "T_rear")) == "", "a sensor that is not there may come first"
+    assert told_apart() == ""
 
 
 @pytest.mark.parametrize(

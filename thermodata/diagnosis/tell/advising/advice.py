@@ -39,7 +39,7 @@ def _advice(outcome: Outcome, first: Scored | None, data: Dataset, terms: Sequen
     claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
     if claims:
         claim = judgement.claims[0]
-        apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+        apart = next_test.to_tell_apart(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
         if apart is not None:
             return apart
         for other in judgement.claims:

@@ -81,6 +81,19 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     return f"to tell {mine.id} from {other.id}: {how.format(axis=_axis_in_words(own, channels))}"
 
 
+def to_tell_apart(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
+    """The advice where another effect explains the same: which part it is comes first, where temperatures of several
+    say it alike, and then what tells it from effects that none of these parts is named for."""
+    apart = to_separate(chosen, twins, channels)
+    if apart is None:
+        return None
+    parts = to_tell_parts(chosen.candidate, [t.candidate for t in twins], channels)
+    if parts is None:
+        return apart
+    rest = [t for t in twins if _part_of(t.candidate, channels) is None or t.candidate.protocol is not None]
+    return "; and ".join(filter(None, [parts, to_separate(chosen, rest, channels)]))
+
+
 def _can_be_driven(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> bool:
     """Whether it is driven by what heats a part, and by no temperature: nobody heats the one and not the other."""
     return all(c in channels and channels[c].quantity != "temperature" for c in one.channels)
@@ -102,16 +115,21 @@ def to_tell_parts(
     their difference, and the air is one cause at all of its places."""
     parts: dict[str, str] = {}
     for one in (chosen, *twins):
-        read = [(c, channels[c]) for c in one.channels if c in channels and channels[c].quantity == "temperature"]
-        for name, info in read if len(read) == 1 else []:
-            if info.at is not None and not is_around(info.at):
-                parts.setdefault(info.at, name)
+        if (part := _part_of(one, channels)) is not None:
+            parts.setdefault(*part)
     if len(parts) < 2:
         return None
     named = [f"{name} ({at})" for at, name in parts.items()]
     of_motor = [at.rpartition(".")[2] in ("motor", "drive") for at in parts]
     how = _BY_LOAD if any(of_motor) and not all(of_motor) else _BY_PART
     return f"{chosen.id} may be heat of {listed(named, 'or')}; to tell them: {how}"
+
+
+def _part_of(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> tuple[str, str] | None:
+    """(place, channel) of the one temperature that it reads; None where it reads another number of them, or the air."""
+    read = [(c, channels[c]) for c in one.channels if c in channels and channels[c].quantity == "temperature"]
+    (name, info) = read[0] if len(read) == 1 else ("", None)
+    return None if info is None or info.at is None or is_around(info.at) else (info.at, name)
 
 
 def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
