@@ -144,6 +144,50 @@ def test_a_condition_that_takes_both_values_on_a_side_explains_nothing() -> None
     assert conditions_changed(replace(fall, before=(seen[0],), after=(seen[1],)))
 
 
+def placed(data: Dataset, name: str, at: str) -> Dataset:
+    """The same with a channel at another place."""
+    channels = {**data.channels, name: replace(data.channels[name], at=at)}
+    return replace(data, channels=channels, tests=tuple(replace(t, channels=channels) for t in data.tests))
+
+
+@pytest.mark.parametrize(
+    ("at", "told"),
+    [("coolant.tank", 0), ("hydraulics", 0), ("chiller.return", 0), ("spindle.gearbox", 1), ("bed", 1), ("T_tank", 1)],
+)
+def test_a_fluid_of_which_there_is_more_came_off_no_body(at: str, told: int) -> None:
+    """A tank of another level was said to have a loose sensor."""
+    assert len(loose_sensors(placed(loosened(machine(), 0.4, 4), "T_front", at), "dZ")) == told
+
+
+def switched(data: Dataset, on: Collection[int], at: str, quantity: str = "state") -> Dataset:
+    """With a switch that is on through the second half of some tests."""
+    channels = {**data.channels, "on": ChannelInfo("on", quantity, "1", at=at, source="cn")}
+
+    def one(number: int, test: TestData) -> TestData:
+        course = np.where(np.arange(N) > N // 2, float(number in on), 0.0)
+        values, valid = {**test.values, "on": course}, {**test.valid, "on": np.ones(N, bool)}
+        return replace(test, values=values, valid=valid, channels=channels)
+
+    return replace(data, channels=channels, tests=tuple(one(i, t) for i, t in enumerate(data.tests)))
+
+
+@pytest.mark.parametrize(
+    ("on", "at", "quantity", "told"),
+    [
+        (range(4), "coolant", "state", 0),
+        (range(4, 8), "chiller", "flow", 0),
+        (range(4, 8), "fan", "state", 0),
+        (range(4, 8), "table", "state", 1),
+        (range(3), "coolant", "state", 1),
+        (range(8), "coolant", "state", 1),
+        ((), "coolant", "state", 1),
+    ],
+)
+def test_what_cools_on_one_side_alone_explains_it(on: Collection[int], at: str, quantity: str, told: int) -> None:
+    found = loose_sensors(switched(loosened(machine(), 0.4, 4), on, at, quantity), "dZ")
+    assert len(found) == told
+
+
 def test_a_sensor_that_is_judged_faulty_says_nothing_more() -> None:
     data = loosened(machine(), 0.4, 4)
     failed = {**data.channels, "T_front": replace(data.channels["T_front"], faulty="offset")}

@@ -18,10 +18,12 @@ from thermodata.diagnosis.clocks.beside_air import beside_air
 from thermodata.diagnosis.clocks.logs_compared import is_around
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.question.known import FloatND
+from thermodata.diagnosis.sensors.cooled import cooled_otherwise
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.answers.diagnosis import Artefact
+from thermodata.schema.words.places import is_fluid
 from thermodata.schema.words.sentences import counted
 from thermodata.view.grid.dataset import Dataset, TestData
 
@@ -118,7 +120,7 @@ def falls(data: Dataset, tests: Sequence[TestData], response: str = "") -> list[
     # what a loose sensor foretells of the others is wrong
     others = [f for f in sums.falls(without=[fall.name]) if f.name != fall.name]
     changed = any(f.plain or between_the_same_tests(f, fall) for f in others) or conditions_changed(fall)
-    return [] if changed else [fall]
+    return [] if changed or cooled_otherwise(fall.before, fall.after) else [fall]
 
 
 def between_the_same_tests(other: Fall, fall: Fall) -> bool:
@@ -157,6 +159,8 @@ class _Sums:
         ]
         self.tests = tests
         self.names = [n for n in every if n not in air]
+        # what stands in a fluid came off no body: how much of it there is, and whether it flows, is another factor
+        self.asked = {n for n in self.names if not is_fluid(data.channels[n].at)}
         self.commands = len(drives) * len(LAGS_S)
         parts = [_columns(t, drives, self.names, air, data.step_s) for t in tests]
         self.gram = np.stack([x.T @ x for x, _ in parts])
@@ -166,6 +170,8 @@ class _Sums:
     def falls(self, without: Collection[str] = ()) -> Iterator[Fall]:
         """Of each temperature where it falls most plainly. without: temperatures that foretell no other."""
         for j, name in enumerate(self.names):
+            if name not in self.asked:
+                continue
             used = np.flatnonzero(self.seen[:, j])
             if len(used) < 2 * LEAST_TELLING:
                 continue

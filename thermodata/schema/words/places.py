@@ -203,6 +203,20 @@ def is_around(place: str | None) -> bool:
     return _body(place) in AROUND
 
 
+_FLUIDS = ("coolant", "chiller", "hydraulics", "lubrication", "pneumatics")
+
+
+def is_fluid(place: str | None) -> bool:
+    """Whether what is there flows or stands in a tank: how much there is of it, and whether it flows, changes by what
+    factor its temperature answers."""
+    return _body(place) in _FLUIDS
+
+
+def cools(place: str | None) -> bool:
+    """Whether what runs there takes heat away."""
+    return _body(place) in (*_FLUIDS, "pump", "fan")
+
+
 AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}
 # where a campaign may know no such place: what it is, and that nothing is logged there
 _SAID = {"fixture": "a warming fixture of the probes or the part (no sensor there)", **AIRS}
