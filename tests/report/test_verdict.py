@@ -825,14 +825,12 @@ def test_an_error_as_fitted_says_from_where_it_counts_in_which_tests() -> None:
     assert f"0.310 um on the open tests ({levels})" in text
 
 
-@pytest.mark.parametrize(
-    ("compared", "said"), [(120.0, ", 0.0194 um in the means of 2 min that"), (60.0, ""), (None, "")]
-)
+@pytest.mark.parametrize(("compared", "said"), [(120.0, ", 0.0194 um a mean of 2 min, as"), (60.0, ""), (None, "")])
 def test_noise_is_told_over_the_means_that_left_out_tests_are_compared_by(compared: float | None, said: str) -> None:
     """An error of 0.0200 um beside a noise of 0.0275 um: that is of other means."""
     short = {"rmse_um": 0.02, "noise_um": 0.0275, "noise_over_s": 60.0, "left_out_over_s": compared}
     text = verdict_sentence(found("none", [], **short))
-    assert f"noise (0.0275 um between neighbouring means of 60 s{said}" in text
+    assert f"noise (0.0275 um, by which a mean of 60 s scatters by chance{said}" in text
     assert ("left-out tests are compared by" in text) is bool(said)
 
 

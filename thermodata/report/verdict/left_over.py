@@ -214,16 +214,16 @@ def of_levels(found: Diagnosis, told: bool = False) -> str:
 
 
 def _between(found: Diagnosis) -> str:
-    """' between neighbouring means of 60 s, 0.0194 um in the means of 120 s that left-out tests are compared by': white
-    noise is less in longer means, and an error on left-out tests may be below that of shorter ones."""
+    """', by which a mean of 60 s scatters by chance, 0.0194 um a mean of 2 min, as left-out tests are compared by':
+    white noise is less in longer means, and an error on left-out tests may be below that of shorter ones."""
     over, compared = found.noise_over_s, found.left_out_over_s
     if not over:
         return ""
-    said = f" between neighbouring means of {duration(over)}"
+    said = f", by which a mean of {duration(over)} scatters by chance"
     if found.noise_um is None or compared is None or compared <= LONGER * over:
         return said
     there = number(noise_of_left_out(found))
-    return f"{said}, {there} um in the means of {duration(compared)} that left-out tests are compared by"
+    return f"{said}, {there} um a mean of {duration(compared)}, as left-out tests are compared by"
 
 
 def on_left_out(found: Diagnosis) -> str:
@@ -243,5 +243,5 @@ def on_left_out(found: Diagnosis) -> str:
 
 
 def noise_words(found: Diagnosis) -> str:
-    """'noise 0.0563 um between neighbouring means of 60 s'; '' where none is known."""
+    """'noise 0.0563 um, by which a mean of 60 s scatters by chance'; '' where none is known."""
     return "" if found.noise_um is None else f"noise {number(found.noise_um)} um{_between(found)}"
