@@ -1,4 +1,4 @@
--- Tables of a thermodata store, format 6. Generated: thermodata schema --write schemas
+-- Tables of a thermodata store, format 7. Generated: thermodata schema --write schemas
 
 create table store (format integer not null, created_by varchar not null, created_at timestamp not null,
                     generation bigint not null);

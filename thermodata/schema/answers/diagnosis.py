@@ -221,8 +221,9 @@ class Diagnosis(Result):
     responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
     by_choice: whether the response was asked for
     not_asked: effects of the library whose plugins failed
-    open_tests: how many tests are open, and open_tests_asked: how many of them took part: the others lack samples or a
-        channel of the model, or are left out for what is wrong with their logs; null in an answer of an older version
+    open_tests: how many tests are open; null in an answer of an older version
+    open_tests_asked: how many of them took part: the others lack samples or a channel of the model, or are left out for
+        what is wrong with their logs; null in an answer of an older version
     locked_unasked: locked tests of the model that could not be asked: what the model or a claim reads was not logged
         there, or they repeat an open test; empty in an answer of an older version
     locked_tests: how many tests are locked, with those that could not be asked; null in an answer of an older version

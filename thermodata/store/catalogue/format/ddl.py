@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-FORMAT = 6  # counts the changes of tables, and of the documents that they keep (`document.KEPT`)
+FORMAT = 7  # counts the changes of tables, and of the documents that they keep (`document.KEPT`)
 
 TABLES = """
 create table store (format integer not null, created_by varchar not null, created_at timestamp not null,

@@ -21,6 +21,7 @@ STEPS: dict[int, str] = {
     3: "-- the same: an answer says how probable it is that nothing logged reads what is missing",
     4: "-- the same: what the model as it is fitted leaves on locked tests; why claims stand; tests lost or not asked",
     5: "-- the same: how many tests are locked; how sure the heat of two parts is",
+    6: "-- the same: effects whose gain the tests do not determine, how many open tests took part",
 }
 
 
