@@ -25,6 +25,7 @@ from thermodata.draft.times.beside_list import not_as_listed, start_listed
 from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import Alignment, Named
 from thermodata.draft.times.one_clock import on_one_clock
+from thermodata.draft.words.numbered import without_number
 from thermodata.draft.words.roles import said_by_list
 
 
@@ -69,14 +70,23 @@ def drafted_tests(
     beside = {
         t: _BesideTest(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), *more[t]) for t in ids
     }
-    return tuple(_drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t]) for t in ids)
+    called = without_number(ids)
+    return tuple(
+        _drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t], called[t]) for t in ids
+    )
 
 
 def _drafted(
-    test: str, files: Sequence[RawFile], groups: Sequence[Group], measuring: Measuring | None, beside: _BesideTest
+    test: str,
+    files: Sequence[RawFile],
+    groups: Sequence[Group],
+    measuring: Measuring | None,
+    beside: _BesideTest,
+    called: str,
 ) -> DraftTest:
+    """called: what its name says, without its number."""
     listed, version = beside.listed, beside.version
-    kind = kind_of(test, files, listed)
+    kind = kind_of(called, files, listed)
     asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
     asked += [beside.goes_on] if beside.goes_on else []
     conditions, doubts = dict(kind.conditions), [*kind.doubts, *([beside.warm] if beside.warm else []), *asked]
