@@ -16,13 +16,14 @@ from thermodata.chart import Strip
 from thermodata.report.charts.figures import part_chart, points_for, residual_scale
 from thermodata.report.collected.data import ReportData
 from thermodata.report.page.error_rows import error_rows, headline_error
-from thermodata.report.page.headline import error_sentence, headline, sentences
+from thermodata.report.page.headline import error_sentence, first_sentences, headline, sentences
 from thermodata.report.page.left_over import what_is_left
 from thermodata.report.page.page import render
 from thermodata.report.words.glossary import ERRORS
 from thermodata.schema.answers.candidate import LeftOut
 from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.answers.undetermined import Undetermined
 
 from .conftest import diagnosis
 
@@ -367,3 +368,33 @@ def test_behind_each_strip_stands_its_error(data: ReportData) -> None:
     assert [float(text) for text in overview["figures"]] == pytest.approx(
         [np.sqrt(np.mean(r**2)) for r in left], rel=0.01
     )
+
+
+def test_the_head_says_what_to_act_by_and_folds_the_evidence(data: ReportData, blind: ReportData) -> None:
+    """Up to fifteen paragraphs stood above the first figure."""
+    for page in (data, blind):
+        html, at_once = render(page), first_sentences(page)
+        head = html[html.index("<header") : html.index("</header>")]
+        open_part, _, folded = head.partition("<details data-print>")
+        assert len(at_once) <= 4
+        assert set(at_once) <= set(sentences(page))
+        assert open_part.count("<p") == len(at_once) + bool(page.diagnosis and page.diagnosis.next_test)
+        assert folded.count("<p>") == len(sentences(page)) - len(at_once)
+        assert html.index('id="where"') < html.index('id="errors"'), "the figure comes first"
+
+
+def test_what_to_do_next_stands_in_the_head(blind: ReportData) -> None:
+    assert blind.diagnosis is not None
+    asked = dataclasses.replace(blind, diagnosis=blind.diagnosis.model_copy(update={"next_test": "a cold start"}))
+    head = render(asked).partition("</header>")[0]
+    assert "<b>What to do next:</b> a cold start" in head
+    without = dataclasses.replace(blind, diagnosis=blind.diagnosis.model_copy(update={"next_test": None}))
+    assert "What to do next" not in render(without)
+
+
+def test_what_the_fit_leaves_open_stands_in_the_head(blind: ReportData) -> None:
+    assert blind.diagnosis is not None
+    gain = Parameter(value=3.0, unit="um/K", low=-1.0, high=7.0)
+    one = Undetermined(effect="screw", drivers=["T"], gains={"screw.gain": gain}, does_um=0.1)
+    unsure = dataclasses.replace(blind, diagnosis=blind.diagnosis.model_copy(update={"undetermined": [one]}))
+    assert any("do not determine screw: its gain is" in line for line in first_sentences(unsure))

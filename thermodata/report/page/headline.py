@@ -10,11 +10,14 @@ from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows
 from thermodata.report.text.clauses import clauses
 from thermodata.report.text.confirmed import confirmed_sentence
 from thermodata.report.verdict.candidate_errors import from_fitted
+from thermodata.report.verdict.few_tests import few_tests
+from thermodata.report.verdict.not_determined import not_determined
 from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words.numbers import change, in_unit, number
 from thermodata.report.words.of_response import of_response
 from thermodata.schema.agreed.begins_on import IF_SO
 from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.confirmed import Confirmed
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.sentences import listed
 
@@ -90,14 +93,27 @@ def tests_of(row: ErrorRow) -> str:
     return f"{row.word} tests{'' if row.tested or row.foretold else ', which are fitted too by now,'}"
 
 
+def first_sentences(data: ReportData) -> list[str]:
+    """Of what stands below, what a reader acts by: each claim, the one error, what the confirmation of a choice says
+    against it, the verdict of now, and what its tests can't say."""
+    said = [*claim_lines(data), _error_unless_told(data)]
+    said += [_by_choice(asked) for asked in data.by_choice if not asked.holds]
+    found = data.diagnosis
+    if found is not None:
+        first, *further = clauses(_verdict(data, found))
+        if data.added:
+            said.append(f"Now: {first}")
+        elif not claims_of(found):
+            said += map(capital, further[:1])
+        unsure = [few_tests(found), *not_determined(found)[:1]]
+        said += [capital(in_unit(line, data.unit_of(found))) for line in unsure]
+    return list(dict.fromkeys(_ended(said)))
+
+
 def sentences(data: ReportData) -> list[str]:
-    """What stands below: the error, the evidence of what was added, and the verdict of now."""
-    row = headline_error(error_rows(data))
-    # the verdict that nothing is missing has that figure already
-    said = row is not None and number(row.after) in headline(data)
-    lines = [] if said else [error_sentence(data)]
-    lines += [*_levels(data), _foretold(data)]
-    lines += [f"Asked by choice, {confirmed_sentence(asked)}" for asked in data.by_choice]
+    """All that stands below: the error, the evidence of what was added, and the verdict of now."""
+    lines = [_error_unless_told(data), *_levels(data), _foretold(data)]
+    lines += map(_by_choice, data.by_choice)
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     lines[:0] = claim_lines(data)
@@ -119,7 +135,22 @@ def sentences(data: ReportData) -> list[str]:
     elif data.diagnosis:
         # its first words are the headline
         lines[:0] = [of, *map(capital, clauses(_verdict(data, data.diagnosis))[1:])]
+    return _ended(lines)
+
+
+def _ended(lines: Sequence[str]) -> list[str]:
+    """With a full stop each; without what is empty."""
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
+
+
+def _error_unless_told(data: ReportData) -> str:
+    """The one error; '' where the verdict that nothing is missing has that figure already."""
+    row = headline_error(error_rows(data))
+    return "" if row is not None and number(row.after) in headline(data) else error_sentence(data)
+
+
+def _by_choice(asked: Confirmed) -> str:
+    return f"Asked by choice, {confirmed_sentence(asked)}"
 
 
 def _levels(data: ReportData) -> list[str]:

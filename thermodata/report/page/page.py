@@ -15,7 +15,7 @@ from thermodata.report.collected.data import ReportData
 from thermodata.report.collected.lost import lost_of_versions
 from thermodata.report.page.drawn import chart_of, figures_of, heat_of, ranked_spots, response_of
 from thermodata.report.page.error_rows import error_rows, headline_error
-from thermodata.report.page.headline import capital, claim_lines, headline, sentences
+from thermodata.report.page.headline import capital, claim_lines, first_sentences, headline, sentences
 from thermodata.report.page.left_over import what_is_left
 from thermodata.report.page.rows_of_tests import score_rows, test_row
 from thermodata.report.page.write import page_values, write_page
@@ -109,11 +109,14 @@ _ASKED_BY_THE_PAGE: dict[str, Any] = {
 
 def _summary(data: ReportData) -> dict[str, Any]:
     """What stands above the figures: headline, errors, what is left, how the versions became so."""
-    errors = error_rows(data)
+    errors, at_once = error_rows(data), first_sentences(data)
+    rest = [line for line in sentences(data) if line not in at_once]
     return {
         "headline": typeset(headline(data)),
         "first": max(1, len(claim_lines(data))),
-        "sentences": [typeset(line) for line in sentences(data)],
+        "sentences": [typeset(line) for line in at_once],
+        "evidence": [typeset(line) for line in rest],
+        "next_test": typeset(data.diagnosis.next_test or "") if data.diagnosis else "",
         "errors": errors,
         "head": headline_error(errors),
         "left": what_is_left(data),
