@@ -174,7 +174,7 @@ def test_where_no_test_could_be_left_out_none_is_said_to_have_been() -> None:
     said = text("not_testable")
     assert "left-out" not in said
     assert "as it is fitted the model leaves 4.00 um" in said
-    assert said.splitlines()[0].endswith("one is claimed only where it also foretells a test that it was not fitted to")
+    assert said.splitlines()[1].endswith("one is claimed only where it also foretells a test that it was not fitted to")
     assert said.splitlines()[-1].startswith("fitted: calibration tests, which the model was fitted to")
 
 
