@@ -62,6 +62,7 @@ def _stroke(x: Float1D) -> Float1D:
         lambda: probe(at=RAIL - 250 * NOISE),
         lambda: np.where(np.arange(N) == 50, 11.0, probe()),  # it reads beyond
         lambda: probe(rail=RAIL + 0.5 * np.repeat(np.arange(N // CYCLE) % 2, CYCLE)),  # two levels
+        lambda: probe(rail=0.0, noise=0.0, own=0.0005),  # at exactly 0 it rests
         lambda: np.round(probe(noise=0.0) / 0.5) * 0.5,  # in treads, of which each is read again and again
         lambda: probe(rail=RAIL + 0.2 * np.sin(np.arange(N) / 7)),
     ],

@@ -111,7 +111,14 @@ def test_what_is_not_so_or_of_how_often_it_measures_is_no_offset(sentence: str) 
 
 
 @pytest.mark.parametrize(
-    ("sentence", "offset"), [("the clock is 1,20 s slow", "1.2 s"), ("logger 1.5 h ahead", "-1.5 h")]
+    ("sentence", "offset"),
+    [
+        ("the clock is 1,20 s slow", "1.2 s"),
+        ("logger 1.5 h ahead", "-1.5 h"),
+        ("NC clock 3 min slow (not corrected)", "3 min"),
+        ("Uhr der Steuerung geht 2 min vor, noch nicht korrigiert", "-2 min"),
+        ("alle Uhren gehen 2 min vor", "-2 min"),
+    ],
 )
 def test_and_what_is_so_is(sentence: str, offset: str) -> None:
     assert offset_of(sentence) == offset

@@ -136,3 +136,16 @@ def test_one_column_more_where_rows_count_from_a_start_ends_the_reading(tmp_path
     (times,) = data.t_ns.values()
     assert times.size == 30
     assert any("another header" in loss.reason for loss in data.losses)
+
+
+def test_after_twenty_changes_of_the_order_reading_ends_and_says_so(tmp_path: Path) -> None:
+    """Each has all rows behind it parsed anew: a file of nothing but headers took minutes."""
+    turns = [(MOVED if k % 2 else HEAD, 4) for k in range(22)]
+    whole = read(tmp_path, log(*turns[:21]))
+    holds_all(whole, 84)
+    assert not whole.losses
+    data = read(tmp_path, log(*turns))
+    holds_all(data, 84)
+    [loss] = data.losses
+    assert "named in another order here, as 20 times before, reading ends: split the file there" in loss.reason
+    assert "line 106" in loss.where or loss.where.endswith("106")

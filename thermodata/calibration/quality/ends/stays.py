@@ -60,8 +60,8 @@ def _at_top(x: Float1D) -> tuple[float, float, int] | None:
     calm = np.abs(np.diff(x))[rest[1:] & rest[:-1]]
     if not calm.size:
         return None
-    if exact:  # a reading in treads repeats any of its values; one that flickers by its counts does not
-        flickers = np.mean(calm == 0) < _SELDOM and apart[wide[-1]] >= _JUMPS * float(np.median(calm))
+    if exact:  # a reading in treads repeats any of its values; one that flickers by its counts does not; 0 is a rest
+        flickers = level != 0 and np.mean(calm == 0) < _SELDOM and apart[wide[-1]] >= _JUMPS * float(np.median(calm))
         return (level, noise, n) if flickers else None
     if max(off) > _FLAT * noise:
         return None

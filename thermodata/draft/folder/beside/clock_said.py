@@ -51,7 +51,15 @@ _NOT_SO = (
     r"\b(?:not|never|no longer|isn't|wasn't|nicht|nie|kein\w*|pas|non|no es|corrected|adjusted|reset|synchroni[sz]ed|"
     r"korrigiert|gestellt|synchronisiert|corrigée?|corretto|seřízen\w*)\b"
 )
-_HOW_OFTEN = r"\b(?:every|interval\w*|period\w*|sampl\w*|rate|abtast\w*|takt\w*|alle|toutes les|ogni|cada|každ\w+)\b"
+# ... but what was not put right is so still
+_STILL = (
+    r"\b(?:not|never|wasn't|isn't|nicht|nie|pas|non|no)\s+(?:\w+\s+){0,2}(?:corrected|adjusted|reset|"
+    r"synchroni[sz]ed|korrigiert|gestellt|synchronisiert|corrigée?|corretto|seřízen\w*)\b"
+)
+_HOW_OFTEN = (
+    r"\b(?:interval\w*|period\w*|sampl\w*|rate|abtast\w*|takt\w*)\b|"
+    r"\b(?:every|alle|toutes les|ogni|cada|každ\w+)\s+\d"
+)
 _SHOWN = 80  # letters of a sentence
 _LONGEST = 600  # letters of a sentence that says it: the patterns take the square of them
 _UNITS = {"s": "s", "m": "min", "h": "h", "o": "h"}
@@ -84,7 +92,8 @@ def offset_of(sentence: str) -> str | None:
     amounts = set(_amounts(sentence))
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
     of_clock = re.search(_CLOCK, sentence, re.IGNORECASE) is not None
-    if re.search(f"{_NOT_SO}|{_HOW_OFTEN}", sentence, re.IGNORECASE):
+    as_said = re.sub(_STILL, "", sentence, flags=re.IGNORECASE)
+    if re.search(f"{_NOT_SO}|{_HOW_OFTEN}", as_said, re.IGNORECASE):
         return None
     if len(amounts) != 1 or _NO_AMOUNT in amounts or not of_clock or bool(slow) == bool(fast):
         return None

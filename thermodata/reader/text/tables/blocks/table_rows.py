@@ -30,6 +30,10 @@ from thermodata.reader.times.zone import NAT
 
 _BLOCK_VALUES = 1_000_000
 _HEAD_LINES = 40  # of a further head
+MOST_HEADERS = 20  # of a file that name its columns in another order: each has all rows behind it parsed anew
+_TOO_OFTEN = (
+    f"the columns are named in another order here, as {MOST_HEADERS} times before, reading ends: split the file there"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +64,7 @@ class RowReader:
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False
         self.under = own_header(table)
+        self._headers = 0  # that name the columns in another order
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
         self._repeated = -1  # the last line that repeats the header
@@ -193,9 +198,11 @@ class RowReader:
         before = lines[: found.line - chunk.line]
         size = self._bytes_left(chunk.data, before)
         rows, lost = rows.before(found.line), [t for t in told if t.line < found.line]
-        if found.under is None:
+        if found.under is None or self._headers == MOST_HEADERS:
             self.stopped = True
-            return rows, [*lost, Complaint(found.line, found.told, size)], None
+            told = found.told if found.under is None else _TOO_OFTEN
+            return rows, [*lost, Complaint(found.line, told, size)], None
+        self._headers += 1
         self.under, self._repeated = found.under, found.line
         self._last_ns = int(since_ns[rows.n - 1]) if rows.n else self._last_ns
         at = sum(len(line) + 1 for line in lines[: len(before) + 1])
