@@ -200,8 +200,8 @@ class RowReader:
         rows, lost = rows.before(found.line), [t for t in told if t.line < found.line]
         if found.under is None or self._headers == MOST_HEADERS:
             self.stopped = True
-            told = found.told if found.under is None else _TOO_OFTEN
-            return rows, [*lost, Complaint(found.line, told, size)], None
+            why = found.told if found.under is None else _TOO_OFTEN
+            return rows, [*lost, Complaint(found.line, why, size)], None
         self._headers += 1
         self.under, self._repeated = found.under, found.line
         self._last_ns = int(since_ns[rows.n - 1]) if rows.n else self._last_ns
