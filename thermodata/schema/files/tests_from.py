@@ -167,6 +167,8 @@ def _conditions(
             hint="add the row, correct the key there, or leave the file out by a narrower pattern in 'files'",
         )
     for condition, column in spec.table.columns.items():
+        if _is_empty(row[column]):
+            continue
         value = _with_unit(row[column], spec.units.get(condition))
         if condition in result and not _are_same_values(result[condition], value):
             if spec.disagree == "error":
@@ -190,7 +192,12 @@ def _norm(value: Any) -> str:
         number = float(text.replace(",", "."))
     except ValueError:
         return text
-    return f"{number:g}"
+    return f"{number:.15g}"  # 15 digits: what a cell of a sheet holds, so that 20260301 is not 20260302
+
+
+def _is_empty(cell: Any) -> bool:
+    """Whether a table says nothing there; pandas has NaN for an empty cell of a sheet."""
+    return cell is None or cell != cell or not str(cell).strip()
 
 
 def _are_same_values(a: Any, b: Any) -> bool:
@@ -208,7 +215,7 @@ def _with_unit(value: Any, unit: str | None) -> Any:
         return text
     if written:
         return text
-    return f"{number:g} {unit}" if unit else number
+    return f"{number:.15g} {unit}" if unit else number
 
 
 def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place) -> dict[str, Mapping[str, Any]]:
@@ -239,7 +246,29 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
             )
     frame.columns = columns
     rows: Sequence[Mapping[Any, Any]] = frame.to_dict("records")
-    return {_norm(row[spec.table.key]): row for row in rows}
+    return _by_key(spec, rows, document, place)
+
+
+def _by_key(
+    spec: TestsFrom, rows: Sequence[Mapping[Any, Any]], document: Document, place: Place
+) -> dict[str, Mapping[str, Any]]:
+    """The rows by what names the test. SpecError where two rows of one test say different things of it."""
+    assert spec.table is not None
+    found: dict[str, Mapping[str, Any]] = {}
+    for row in rows:
+        key = _norm(row[spec.table.key])
+        before = found.setdefault(key, row)
+        for column in spec.table.columns.values():
+            one, other = ("" if _is_empty(r[column]) else str(r[column]).strip() for r in (before, row))
+            if key and not _are_same_values(one, other):
+                raise SpecError(
+                    f"the table has two rows for {spec.table.key} = {key}",
+                    where=document.where((*place, "table")),
+                    expected="one row a test, or rows that agree",
+                    got=f"{column}: '{one}' and '{other}' in {spec.table.file}",
+                    hint="take one of them out, or number the tests anew",
+                )
+    return found
 
 
 def _frame(path: Path, sheet: int | str | None) -> Any:
