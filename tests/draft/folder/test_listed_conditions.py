@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.commands import Say
+from tests.draft.labs import workbook
 from thermodata.draft.folder.beside.table import find_table
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
@@ -50,6 +51,19 @@ def test_other_columns_are_no_speed(tmp_path: Path, title: str) -> None:
 def test_a_second_speed_keeps_its_own_name(tmp_path: Path) -> None:
     found = listed(tmp_path, "Drehzahl [U/min]", "4000", "8000", more="Drehzahl Tisch [U/min]")
     assert found == {"speed": "4000 U/min", "drehzahl_tisch": "7 U/min"}
+
+
+def test_numbers_keep_their_digits(tmp_path: Path) -> None:
+    assert listed(tmp_path, "Serial", "1234567", "8") == {"serial": "1234567"}
+    workbook(tmp_path / "tests.xlsx", [["Test", "Weg [um]"], [20260301, 1234567.25], [20260302, 2]])
+    table = find_table(tmp_path, ["tests.xlsx"], ["20260301", "20260302"])
+    assert table is not None
+    assert table.rows == {"20260301": {"weg": "1234567.25 um"}, "20260302": {"weg": "2 um"}}
+
+
+def test_a_text_with_a_cell_of_any_length_is_no_table(tmp_path: Path) -> None:
+    (tmp_path / "tests.csv").write_text(f'Test;Note\nP1;"{"x" * 200_000}"\nP2;y\n')
+    assert find_table(tmp_path, ["tests.csv"], ["P1", "P2"]) is None
 
 
 def folder_of(tmp_path: Path, units: dict[str, str], speeds: dict[str, str]) -> None:

@@ -135,12 +135,17 @@ def grids_of(path: Path, most: int, tests: Set[str] = frozenset()) -> Iterator[l
         return
     first = text.split("\n", 1)[0]
     delimiter = max(";\t,", key=first.count)
-    if first.count(delimiter):
-        yield [[c.strip() for c in row] for row in csv.reader(text.splitlines(), delimiter=delimiter)]
+    if not first.count(delimiter):
+        return
+    try:
+        found = [[c.strip() for c in row] for row in csv.reader(text.splitlines(), delimiter=delimiter)]
+    except csv.Error:  # a cell of more than 128 KiB: nobody wrote that table by hand
+        return
+    yield found
 
 
 def _text(cell: Any) -> str:
-    return f"{cell:g}" if isinstance(cell, float) else "" if cell is None else str(cell).strip()
+    return f"{cell:.15g}" if isinstance(cell, float) else "" if cell is None else str(cell).strip()
 
 
 def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: bool) -> TestTable | None:
@@ -233,4 +238,4 @@ def _with_unit(cell: str, title: str, name: str) -> str:
     if not number:
         return cell
     unit = split_unit(title)[1] or ("rpm" if name == "speed" else "")
-    return f"{float(cell.replace(',', '.')):g} {unit}".strip()
+    return f"{float(cell.replace(',', '.')):.15g} {unit}".strip()
