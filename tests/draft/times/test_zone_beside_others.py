@@ -54,7 +54,7 @@ def test_one_that_is_set_back_where_summer_time_ends_still_has_its_zones(tmp_pat
     assert "+2 h from the other sources' UTC: so are Europe/Prague, Europe/Berlin and others" in said
 
 
-@pytest.mark.parametrize("hours", [-9, 13])
+@pytest.mark.parametrize("hours", [-9, 6, 13])
 def test_hours_of_rare_zones_may_be_of_a_clock(tmp_path: Path, hours: int) -> None:
     assert "of what zone, or is the clock wrong by whole hours?" in asked(tmp_path, hours)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -25,7 +25,7 @@ _MOST_HOURS, _NEAR_NS = 14, 60 * 10**9  # that a zone is ahead; by which a log m
 _AT_ONCE_NS, _TIMETABLE_NS, _FEWEST_MINUTES = 10 * 10**9, 900 * 10**9, 2
 _FILES, _RUNS = 3, 3  # that a question names
 _WORD = re.compile(rf"{SAYS} '([^']*)'")
-_ZONES = (
+_ZONES = (  # of whole hours, by which logs are compared
     "UTC",
     "Europe/Prague",
     "Europe/Berlin",
@@ -34,7 +34,6 @@ _ZONES = (
     "Europe/Moscow",
     "Asia/Shanghai",
     "Asia/Tokyo",
-    "Asia/Kolkata",
     "America/New_York",
     "America/Chicago",
     "America/Los_Angeles",
@@ -184,12 +183,12 @@ def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> s
         return None
     each = _each_ahead(group, groups) or ()
     more = _as_well(each) if each else frozenset()
-    ahead = [(_offset(zone, e.begin_ns), e.hours) for e in each]
+    ahead = [(_offset_h(zone, e.begin_ns), e.hours) for e in each]
     return zone if all(own is not None and (own == h or own - h in more) for own, h in ahead) else None
 
 
-def _shown(hours: set[int]) -> str:
-    return "/".join(f"{h:+d} h" for h in sorted(hours))
+def _shown(hours: Collection[float]) -> str:
+    return "/".join(f"{h:+g} h" for h in sorted(hours))
 
 
 def _is_set_otherwise(file: RawFile) -> bool:
@@ -204,12 +203,12 @@ def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> st
     if any(_is_set_otherwise(f) for f in group.files):
         return " where the file begins, and its clock is set back later, so that they tell no zone"
     if (named := zone_in(likely)) is not None:
-        own = [_offset(named, begin) for _, begin in ahead]
+        own = [_offset_h(named, begin) for _, begin in ahead]
         if own == [h for h, _ in ahead]:
             return f", as those of {named} are: {likely}"
         hours = _shown({h for h in own if h is not None})
         return f"; those of {named} were {hours} ahead then: was the clock set otherwise? {likely}"
-    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for h, begin in ahead)]
+    fitting = [z for z in _ZONES if all(_offset_h(z, begin) == h for h, begin in ahead)]
     if not fitting:
         return ": of what zone, or is the clock wrong by whole hours?"
     return f": so are {', '.join(fitting[:3])} and others, and a clock that was set otherwise"
@@ -223,6 +222,7 @@ def end_of(files: Sequence[RawFile]) -> int | None:
     return max((f.sample.last_ns for f in files if f.sample.last_ns is not None), default=None)
 
 
-def _offset(name: str, at_ns: int) -> int | None:
+def _offset_h(name: str, at_ns: int) -> float | None:
+    """How far a zone is ahead of UTC at a time [h]: no whole hours everywhere, as in India."""
     shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
-    return None if shift is None else round(shift.total_seconds() / 3600)
+    return None if shift is None else shift.total_seconds() / 3600
