@@ -26,6 +26,16 @@ def test_what_is_often_so_high_is_no_spike() -> None:
     assert guess("nut_z", None, "float64", values_of(x)).quantity is None
 
 
+@pytest.mark.parametrize(("between", "is_switch"), [(1.0, True), (0.5, False)])
+def test_a_switch_is_one_however_rarely_it_is_on(between: float, is_switch: bool) -> None:
+    x = np.zeros(100_000)
+    x[50_001:50_011] = np.linspace(between, 1.0, 10)
+    seen = values_of(x)
+    assert seen is not None
+    assert seen.switch is is_switch
+    assert (guess("M8", None, "float64", seen).quantity == "state") is is_switch
+
+
 def test_the_usual_range_is_joined_and_converted() -> None:
     one, few = values_of(SLOW), values_of(np.array([30.0, 31.0]))
     both = joined(one, few)

@@ -16,6 +16,7 @@ from thermodata.plugin import Array, Float1D
 from thermodata.schema.units.conversion import linear_conversion
 
 _FEW = 8
+_LOOKED_AT = 2000  # rows, for how many values there are
 _LEAST_COUNTED = 10
 _NINES = re.compile(r"9{2,}\.?9{2,}")  # of any length, as a laser writes -99999.99999
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
@@ -97,7 +98,6 @@ def values_of(column: Array) -> Values | None:
     if not x.size:
         return None
     change = np.abs(np.diff(x))
-    few = np.unique(x[:: max(1, x.size // 2000)])
     return Values(
         int(x.size),
         float(x.min()),
@@ -105,13 +105,23 @@ def values_of(column: Array) -> Values | None:
         float(np.median(x)),
         float(np.median(change[change > 0])) if (change > 0).any() else 0.0,
         float((change > 0).mean()) if change.size else 0.0,
-        min(int(few.size), _FEW + 1),
+        _distinct(x),
         bool((x == np.round(x)).all()),
         float(x[0]),
         float(x[min(1, x.size - 1)]),
         bool(x.size > 1 and (np.diff(x) == 1).all()),
         body=_body(x),
     )
+
+
+def _distinct(x: Float1D) -> int:
+    """How many values there are, at most 9: up to two counted in all rows, for a switch may be on in few of them; more
+    in some. x: shape (n,), finite, n > 0."""
+    low, high = x.min(), x.max()
+    if ((x == low) | (x == high)).all():
+        return 1 if low == high else 2
+    some = np.unique(x[:: max(1, x.size // _LOOKED_AT)])
+    return min(max(int(some.size), 3), _FEW + 1)
 
 
 def _body(x: Float1D) -> tuple[float, float] | None:
