@@ -62,17 +62,20 @@ def _entries(body: str) -> list[str]:
 
 
 def _outside_quotes(text: str, start: int) -> Iterator[tuple[int, str]]:
-    quote = ""
+    """(place, letter) of what stands in no quotes, from a place on. In the middle of a word a quote is a letter, as YAML
+    has it: notes: it's warm."""
+    quote, before = "", ""
     i = start
     while i < len(text):
         letter = text[i]
         if quote:
-            if letter == "\\" and quote == '"':
+            if (letter == "\\" and quote == '"') or text[i : i + 2] == quote * 2 == "''":
                 i += 1
             elif letter == quote:
                 quote = ""
-        elif letter in "\"'":
+        elif letter in "\"'" and (before in ("", *"{[,:") or (before == "-" and text[i - 1].isspace())):
             quote = letter
         else:
             yield i, letter
+        before = before if letter.isspace() else letter
         i += 1
