@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Array, Float1D
+from thermodata.schema.words.numbered import numbered
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.catalogue.conditions import plain_unit
 
@@ -179,6 +180,7 @@ def _logged_streams(view: StoreView, campaign: str, test: str) -> list[Stream]:
             if bits.any():
                 flags[n] = bits
         label = str(source) if stream in (source, "table") else f"{source}_{stream}"
+        label = numbered(label, lambda one: any(one == s.name for s in streams), "_")  # a_b of c, and a of b_c
         streams.append(Stream(label, np.asarray(table.column("t_s").to_numpy(), np.float64), values, flags))
     if not streams:
         raise UsageError(

@@ -6,7 +6,7 @@ Version 5 (MATLAB's -v7), which every program reads; 7.3 (HDF5, by h5py) where a
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -15,18 +15,22 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
+from thermodata.schema.words.numbered import numbered
 
 MOST_BYTES = (1 << 31) - (1 << 20)  # of all variables in a file of version 5
 TIME_EPOCH = "time_epoch"
 _NAME = 63  # characters of a name in MATLAB
+_ABOUT = ("about", TIME_EPOCH)  # what stands at the top beside the streams
+_BESIDE = ("time", "units", "channels", "flags")  # and beside the channels of each
 
 
 def variables(content: Content) -> dict[str, Any]:
     """The file's variables: one stream stands at the top, several are structs; numbers are columns of shape (n, 1)."""
     if len(content.streams) == 1:
-        found = _stream(content, content.streams[0])
+        found = _stream(content, content.streams[0], _ABOUT)
     else:
-        found = {_safe(s.name): _stream(content, s) for s in content.streams}
+        names = _named([s.name for s in content.streams], _ABOUT)
+        found = {name: _stream(content, s) for name, s in zip(names, content.streams, strict=True)}
     about: dict[str, Any] = dict(content.about)
     about["step"] = content.step
     if content.start_ns is not None:
@@ -37,23 +41,34 @@ def variables(content: Content) -> dict[str, Any]:
         # datetime(time_epoch, 'InputFormat', 'uuuu-MM-dd''T''HH:mm:ss.SSSSSSSSSX', 'TimeZone', 'UTC') + seconds(time)
         found[TIME_EPOCH] = about["start_utc"]
     if content.conditions:
-        about["conditions"] = {_safe(k): v for k, v in content.conditions.items()}
-    if content.condition_units:
-        about["condition_units"] = {_safe(k): v for k, v in content.condition_units.items()}
+        conditions = dict(zip(content.conditions, _named(list(content.conditions)), strict=True))
+        about["conditions"] = {conditions[k]: v for k, v in content.conditions.items()}
+        if content.condition_units:
+            about["condition_units"] = {conditions[k]: v for k, v in content.condition_units.items()}
     about["flag_bits"] = flag_bits()
     found["about"] = about
     return found
 
 
-def _stream(content: Content, stream: Stream) -> dict[str, Any]:
+def _stream(content: Content, stream: Stream, beside: Sequence[str] = ()) -> dict[str, Any]:
+    """beside: names of what else stands there."""
+    names = dict(zip(stream.values, _named(list(stream.values), (*_BESIDE, *beside)), strict=True))
     found: dict[str, Any] = {"time": stream.t_s[:, None]}
     for name, values in stream.values.items():
-        found[_safe(name)] = list(values) if values.dtype == object else values[:, None]
-    found["units"] = {"time": "s", **{_safe(n): content.unit(n) for n in stream.values if content.unit(n)}}
-    found["channels"] = {_safe(n): dict(content.channels[n]) for n in stream.values if n in content.channels}
+        found[names[name]] = list(values) if values.dtype == object else values[:, None]
+    found["units"] = {"time": "s", **{names[n]: content.unit(n) for n in stream.values if content.unit(n)}}
+    found["channels"] = {names[n]: dict(content.channels[n]) for n in stream.values if n in content.channels}
     if stream.flags:
-        found["flags"] = {_safe(n): bits[:, None] for n, bits in stream.flags.items()}
+        found["flags"] = {names[n]: bits[:, None] for n, bits in stream.flags.items()}
     return {k: v for k, v in found.items() if not (isinstance(v, dict) and not v)}
+
+
+def _named(names: Sequence[str], taken: Sequence[str] = ()) -> list[str]:
+    """The names as MATLAB takes them, in their order: one that is taken, or another's too, has a number, 'time_2'."""
+    found: list[str] = []
+    for name in names:
+        found.append(numbered(_safe(name), lambda one: one in taken or one in found, "_"))
+    return found
 
 
 def flag_bits() -> str:
