@@ -52,4 +52,6 @@ def test_two_rows_of_one_test_that_differ_are_refused(tmp_path: Path) -> None:
 
 
 def test_two_rows_that_agree_are_one(tmp_path: Path) -> None:
-    assert conditions(tmp_path, [("nr", "air"), (1, 20), ("1.0", "20.0"), ("", 7), ("", 8)], "1") == [{"air": "20 degC"}]
+    assert conditions(tmp_path, [("nr", "air"), (1, 20), ("1.0", "20.0"), ("", 7), ("", 8)], "1") == [
+        {"air": "20 degC"}
+    ]

@@ -164,7 +164,7 @@ def _binned_stream(view: StoreView, campaign: str, test: str, step: str, channel
 
 def _logged_streams(view: StoreView, campaign: str, test: str) -> list[Stream]:
     wide = view.sql('select source, stream, "view" from wide where campaign = ?', [campaign]).fetchall()
-    streams = []
+    streams: list[Stream] = []
     for source, stream, name in wide:
         table: Any = view.sql(
             f"select * exclude (campaign, test, source, t) from {quoted(str(name))} "

@@ -62,8 +62,8 @@ def _entries(body: str) -> list[str]:
 
 
 def _outside_quotes(text: str, start: int) -> Iterator[tuple[int, str]]:
-    """(place, letter) of what stands in no quotes, from a place on. In the middle of a word a quote is a letter, as YAML
-    has it: notes: it's warm."""
+    """(place, letter) of what stands in no quotes, from a place on. In the middle of a word a quote is a letter, as
+    YAML has it: notes: it's warm."""
     quote, before = "", ""
     i = start
     while i < len(text):

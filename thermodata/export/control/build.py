@@ -14,7 +14,7 @@ from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
 from thermodata.export.control.names import Names, identifier
-from thermodata.export.control.program import OF_START, Drive, Input, Program, Rate, State, Term
+from thermodata.export.control.program import OF_INPUT, OF_START, OF_STATE, Drive, Input, Program, Rate, State, Term
 from thermodata.modelling.seen.laws import TermLaw
 
 LONGEST_S, SHORTEST_S = 3600.0, 1e-3  # of a cycle
@@ -33,9 +33,7 @@ def build(blank: Program, terms: Sequence[TermLaw], inputs: Mapping[str, Input],
             hint="give one with --cycle: the time between two calls of the program",
         )
     taken = Names()
-    named = {channel: taken.take(one.name) for channel, one in inputs.items()}
-    for name in named.values():  # what is made of an input's name
-        taken.names |= {f"{p}_{name}".lower() for p in ("valid", "held", "bad", "lost", "seen", "ok")}
+    named = {channel: taken.take(one.name, OF_INPUT) for channel, one in inputs.items()}
     maker = _Maker(cycle_s, taken, {c: law.Symbol(f"held_{n}") for c, n in named.items()})
     made = tuple(maker.term(t) for t in terms)
     used = {name for drive in maker.drives.values() for name in law.symbols(drive.tree)}
@@ -63,8 +61,7 @@ class _Maker:
             key = (law.put(drive.tree, self.held), drive.relative)
             if key not in self.drives:
                 plain = drive.text if drive.text.isidentifier() else f"u{len(self.drives) + 1}"
-                name = self.taken.take(f"d_{plain}")
-                self.taken.names |= {f"{p}_{name}".lower() for p in OF_START}
+                name = self.taken.take(f"d_{plain}", OF_START)
                 self.drives[key] = Drive(name, drive.text, key[0], drive.relative, drive.unit)
             roles[role] = law.Symbol(self.drives[key].name)
         tree: law.Node = law.ZERO
@@ -168,6 +165,6 @@ class _Maker:
         """What a state gives; equal ones are one. state: not yet named."""
         key = replace(state, about="")  # which is for the reader: what is computed is the same
         if key not in self.states:
-            self.states[key] = replace(state, name=self.taken.take(f"x{len(self.states) + 1}"))
+            self.states[key] = replace(state, name=self.taken.take(f"x{len(self.states) + 1}", OF_STATE))
         name = self.states[key].name
         return law.Symbol(name if state.kind != "delay" else f"{name}_out")

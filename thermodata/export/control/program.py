@@ -6,7 +6,13 @@ from dataclasses import dataclass
 
 from thermodata.effect import law
 
-OF_START = ("ref", "first", "sum", "bin1", "bin2", "moves", "open")  # before a drive's name: what its start remembers
+# what is made of a name: of an input's its readings, of a drive's its start, of a state's its parts
+OF_INPUT = ("valid_{}", "held_{}", "bad_{}", "lost_{}", "seen_{}")
+OF_START = ("ref_{}", "first_{}", "sum_{}", "bin1_{}", "bin2_{}", "moves_{}", "open_{}")
+OF_STATE = (
+    *("in_{}", "old_{}", "{}_lo", "{}_re", "{}_im", "{}_re_lo", "{}_im_lo", "{}_gap"),
+    *("{}_ring", "{}_at", "{}_back", "{}_out"),
+)
 
 
 @dataclass(frozen=True)
