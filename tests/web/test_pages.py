@@ -153,6 +153,8 @@ def test_a_point_leads_back_to_the_row_of_its_file(reader: Client) -> None:
     assert environment().filters["moment"]("2026-03-11T07:00:00.000000000Z") == "2026-03-11 07:00:00 UTC"
     assert re.search(r"<dt>value there</dt><dd>-?[\d.]+ um</dd>", text), "as the file has it"
     assert "<dt>unit</dt><dd>µm</dd>" in text
+    late = html.unescape(reader.get("/trace?campaign=small&test=heat1&channel=dZ&at=3600.1234567").text)
+    assert "--at '3600.1234567 s'" in late, "the same sample in the terminal"
     (around,) = re.findall(r'href="(/test[^"]*show=dZ[^"]*)"', text)
     assert "from=1800" in around
     assert reader.get(html.unescape(around)).status == 200

@@ -22,7 +22,7 @@ def show(request: Request) -> Response:
     channel, at_s = given.get("channel", ""), seconds_in(given, "at")
     found = trace(desk.store(), campaign, test, channel or None, t_s=at_s)
     words = ["trace", campaign, test, *([channel] if channel else [])]
-    words += ["--at", f"{at_s:.6g} s"] if at_s is not None else []
+    words += ["--at", f"{at_s:.15g} s"] if at_s is not None else []
     return page(
         request,
         "trace.html.j2",
