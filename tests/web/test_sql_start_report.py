@@ -29,6 +29,13 @@ def test_a_query_gives_rows_a_picture_and_files(reader: Client) -> None:
     assert reader.get(f"/sql/parquet?q={query}").body[:4] == b"PAR1"
 
 
+def test_spans_of_time_and_structs_are_no_numbers_to_draw(reader: Client) -> None:
+    query = "select t - min(t) over () as since, {'a': 1} as more, t_s, value from signal('small', 'heat1', 'dZ')"
+    chart = json.loads(re.search(r'id="sqlplot">(.*?)</script>', reader.get(f"/sql?q={quote(query)}").text)[1])
+    assert chart["axis"]["label"] == "t_s"
+    assert [s["name"] for p in chart["panels"] for s in p["series"]] == ["value"]
+
+
 def test_columns_that_are_not_drawn_are_named_and_so_are_rows_that_are_not_listed(reader: Client) -> None:
     columns = ", ".join(f"{i} * t_s as c{i:02}" for i in range(1, 15))
     text = reader.get(f"/sql?q={quote(f'select t_s, {columns} from sample order by t_s')}").text

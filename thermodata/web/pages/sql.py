@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -42,6 +43,7 @@ EXAMPLES = (
 )
 _KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}
 _TAKEN = Limits(seconds=120, rows=5_000_000)
+_NUMBER = re.compile(r"DOUBLE|FLOAT|DECIMAL\(.*\)|U?(?:TINYINT|SMALLINT|INTEGER|BIGINT|HUGEINT)")  # DuckDB's types
 _WIDE = "wide_"
 _MOST_CURVES, _MOST_QUERY = len(EFFECTS), 20_000
 _HEIGHT = 260  # of a panel, as the template knows it
@@ -118,8 +120,7 @@ def _short(query: str) -> str:
 
 def _numbers(table: Table) -> list[str]:
     """Columns of numbers, by name; of equal names the first."""
-    kinds = ("DOUBLE", "FLOAT", "INT", "BIGINT", "DECIMAL", "HUGEINT")
-    return list(dict.fromkeys(n for n, kind in table.columns if any(k in kind for k in kinds) and "[" not in kind))
+    return list(dict.fromkeys(n for n, kind in table.columns if _NUMBER.fullmatch(kind)))
 
 
 def _curves(numbers: list[str], x: str) -> list[str]:
