@@ -8,6 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
+
+from thermodata.view.lists import events
 
 from ..view.conftest import build as build
 from .client import Client
@@ -69,3 +72,13 @@ def test_stretches_that_are_alike_are_a_row_and_each_is_one_click_away(build: Ca
     assert cells[2:] == ["300", "25 min", "5.4 h", "2.5 h", "1\u202f800", "the end of its range"]
     assert table.count("<li>") == 300, "none is left out"
     assert re.search(r'from=1200.0&amp;to=1830.0">0:25:00 to 0:25:30</a> <span class="muted">6 samples', table)
+
+
+@pytest.mark.parametrize(("most", "later"), [(3, ""), (2, "neither drawn nor listed: 1 more behind these")])
+def test_stretches_that_are_too_many_to_be_drawn_are_told(
+    build: Callable[[], Any], monkeypatch: pytest.MonkeyPatch, most: int, later: str
+) -> None:
+    monkeypatch.setattr(events, "_MOST", most)
+    text, _ = page(build, ("dX", "held", "a"), ("dX", "spike", "b"), ("dZ", "held", "c"))
+    assert f"{most} flagged stretches" in text
+    assert (later in text) if later else ("neither drawn nor listed" not in text)

@@ -36,8 +36,8 @@ class Flagged:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """A test as the catalogue has it. phases: name -> (from, to) [s]. flagged: in order of time, at most 2,000.
-    machine: its id."""
+    """A test as the catalogue has it. phases: name -> (from, to) [s]. flagged: in order of time, at most 2,000; later:
+    how many more there are behind these. machine: its id."""
 
     row: dict[str, Any]
     phases: dict[str, tuple[float, float]]
@@ -45,6 +45,7 @@ class About:
     looks: int
     open_in: tuple[str, ...] = ()
     machine: str | None = None
+    later: int = 0
 
 
 def about_test(store: Store, campaign: str, test: str) -> About:
@@ -59,10 +60,11 @@ def about_test(store: Store, campaign: str, test: str) -> About:
         phases = fetch(con, "select phase, from_s, to_s from phase where campaign = ? and test = ?", own)
         events = fetch(
             con,
-            "select channel, source, flag, from_s, to_s, n, detail from quality where campaign = ? and test = ? "
-            f"and from_s is not null order by from_s, channel limit {_MOST}",
+            "select channel, source, flag, from_s, to_s, n, detail, count(*) over () as every from quality "
+            f"where campaign = ? and test = ? and from_s is not null order by from_s, channel limit {_MOST}",
             own,
         )
+    later = events[0]["every"] - len(events) if events else 0
     events = sorted([*events, *not_measured(store, campaign, test)], key=lambda e: (e["from_s"], e["channel"] or ""))
     return About(
         row,
@@ -82,4 +84,5 @@ def about_test(store: Store, campaign: str, test: str) -> About:
         locked_looks(store, campaign, test),
         tuple(open_in(store, [campaign]).get((campaign, test), ())),
         machines[0]["machine"] if machines else None,
+        later,
     )
