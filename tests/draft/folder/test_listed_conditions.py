@@ -104,3 +104,23 @@ def test_sums_of_a_pivot_are_no_conditions(tmp_path: Path) -> None:
     assert find_table(tmp_path, ["pivot.csv"], tests) is None
     (tmp_path / "pivot.csv").write_text("\n".join(["Prova;Ora;Z", "T1_4000;8;-6", "T2_8000;9;-7", "Totale;;-13", ""]))
     assert find_table(tmp_path, ["pivot.csv"], tests) is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "title", "cell", "asked"),
+    [
+        ("n8000", "Drehzahl [krpm]", "8", None),
+        ("n8000", "Drehzahl [krpm]", "8,5", "speed: the name says 8000 rpm, the table 8.5 krpm"),
+        ("n8000", "Drehzahl [rpm]", "8000,0", None),
+        ("X_6mmin", "Vorschub [mm/min]", "6000", None),
+        ("X_6mmin", "Vorschub [mm/min]", "6", "feed: the name says 6 m/min, the table 6 mm/min"),
+    ],
+)
+def test_a_name_and_a_table_are_compared_in_their_units(
+    tmp_path: Path, say: Say, name: str, title: str, cell: str, asked: str | None
+) -> None:
+    folder_of(tmp_path, {f"{name}_a": "um", f"{name}_b": "um"}, {})
+    (tmp_path / "tests.csv").write_text(f"Test;{title}\n{name}_a;{cell}\n{name}_b;{cell}\n", encoding="utf-8")
+    drafted(tmp_path, say)
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert (asked in text) if asked else ("the name says" not in text)

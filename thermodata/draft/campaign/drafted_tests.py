@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import isclose
 from pathlib import Path
 
 from thermodata.draft.campaign.parts import DraftTest
@@ -27,6 +28,7 @@ from thermodata.draft.times.clocks import Alignment, Named
 from thermodata.draft.times.one_clock import on_one_clock
 from thermodata.draft.words.numbered import without_number
 from thermodata.draft.words.roles import said_by_list
+from thermodata.store.catalogue.conditions import plain_unit, plain_value
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +95,7 @@ def _drafted(
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
     for key, value in listed.items():
-        if key in conditions and conditions[key].split()[0] != value.split()[0]:
+        if key in conditions and not _agree(conditions[key], value):
             doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
             continue
         conditions[key] = value
@@ -138,12 +140,21 @@ def _span_s(files: Sequence[RawFile]) -> float | None:
     return (told[-1][1] - told[0][0]) / 1e9
 
 
+def _agree(one: str, other: str) -> bool:
+    """Whether two texts say the same condition: '8 krpm' and '8000 rpm'. Of a number without a unit the number does."""
+    units = plain_unit(one), plain_unit(other)
+    if None in units:
+        return one.split()[0].casefold() == other.split()[0].casefold()
+    a, b = plain_value(one), plain_value(other)
+    return units[0] == units[1] and isinstance(a, float) and isinstance(b, float) and isclose(a, b, rel_tol=1e-9)
+
+
 def _with_note(kind: Kind, conditions: Mapping[str, str], note: Note) -> tuple[Kind, dict[str, str], list[str]]:
     """(the kind with what a note says of its test in its comment, the conditions with those that it adds, doubts)."""
     told = {key: value for key, value in note.conditions.items() if key not in conditions}
     doubts = list[str]()
     for key, value in note.conditions.items():
-        if key not in told and conditions[key].split()[0].casefold() != value.split()[0].casefold():
+        if key not in told and not _agree(conditions[key], value):
             doubts.append(f"{key}: {note.file} says {value}, and {conditions[key]} is taken")
     comments = [f"{', '.join(told)} guess: {note.file}" if told else "", note.comment()]
     kind = replace(kind, comment="; ".join(filter(None, (kind.comment, *comments))))
