@@ -105,15 +105,20 @@ class Faults:
         return tuple(notes)
 
     def _next_fault(self, t: Int1D, at: int) -> int | None:
-        """The first row behind by more than jitter, or ahead by more than a leap."""
-        part = t[at:]
-        high = np.maximum(np.maximum.accumulate(part), self._highest)
-        behind = part < high - self.disorder_ns
-        before = np.concatenate([part[:1] if self._highest == np.iinfo(np.int64).min else [self._highest], high[:-1]])
-        # a difference of int64 may overflow where a time is absurd: compare as floats
-        ahead = part.astype(np.float64) - before.astype(np.float64) > LEAP_NS
-        rows = np.flatnonzero(behind | ahead)
-        return at + int(rows[0]) if rows.size else None
+        """The first row behind by more than jitter, or ahead by more than a leap. Looks a little ahead first, and ever
+        further: a clock with a stray in every hundred rows is not looked through to its end for each."""
+        high, size = self._highest, _RECENT
+        while at < len(t):
+            part = t[at : at + size]
+            top = np.maximum(np.maximum.accumulate(part), high)
+            before = np.concatenate([part[:1] if high == np.iinfo(np.int64).min else [high], top[:-1]])
+            # a difference of int64 may overflow where a time is absurd: compare as floats
+            ahead = part.astype(np.float64) - before.astype(np.float64) > LEAP_NS
+            rows = np.flatnonzero((part < top - self.disorder_ns) | ahead)
+            if rows.size:
+                return at + int(rows[0])
+            high, at, size = int(top[-1]), at + len(part), 2 * size
+        return None
 
     def _stray(self, t: Int1D, at: int, row: int, high: int, more: bool) -> tuple[int, int] | None:
         """(first, past-the-last) of up to three rows around `row` without which the clock is sound."""
