@@ -270,7 +270,18 @@ def scalar(value: object) -> str:
         re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./%*-]*|\d+(?:\.\d+)? [A-Za-z%][A-Za-z0-9/%^]*", text)
         and text.lower() not in _WORDS
     )
-    return text if safe else json.dumps(text, ensure_ascii=not text.isprintable())
+    return text if safe else _quoted(text)
+
+
+def _quoted(text: str) -> str:
+    """In the quotes of YAML. Only what nobody sees is escaped, each character as one: of those beyond 16 bits JSON
+    makes two, which YAML reads as none."""
+    return "".join(c if c.isprintable() else _escaped(c) for c in json.dumps(text, ensure_ascii=False))
+
+
+def _escaped(character: str) -> str:
+    code = ord(character)
+    return f"\\u{code:04x}" if code < 1 << 16 else f"\\U{code:08x}"
 
 
 def one_line(text: str) -> str:
