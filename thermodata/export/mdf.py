@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
 from thermodata.export.mat import flag_bits
+from thermodata.export.xlsx import in_xml
 from thermodata.schema.agreed.exported import SIGN
 from thermodata.schema.flag import INVALID
 
@@ -43,7 +44,7 @@ def write_mdf(content: Content, path: Path) -> None:
 def _comment(content: Content) -> str:
     lines = [f"{k}: {v}" for k, v in content.about.items()]
     lines += [f"condition {k}: {v}" for k, v in content.written.items()]
-    return "\n".join([*lines, f"flags: {flag_bits()}"])
+    return in_xml("\n".join([*lines, f"flags: {flag_bits()}"]))
 
 
 def _signals(make: Callable[..., Any], content: Content, stream: Stream) -> list[Any]:
@@ -51,9 +52,9 @@ def _signals(make: Callable[..., Any], content: Content, stream: Stream) -> list
     for name, values in stream.values.items():
         known = content.channels.get(name, {})
         own = {SIGN: known["sign"]} if "sign" in known else {}  # first, where a reader finds it and no note can say it
-        about = ", ".join(f"{k}: {v}" for k, v in {**own, **known}.items())
+        about = in_xml(", ".join(f"{k}: {v}" for k, v in {**own, **known}.items()))
         if values.dtype == object:
-            texts = np.array([str(v).encode() for v in values] or [b""])
+            texts = np.array([str(v).encode() for v in values], dtype=None if len(values) else "S1")
             found.append(make(texts, stream.t_s, name=name, comment=about, encoding="utf-8"))
             continue
         bits = stream.flags.get(name)

@@ -123,7 +123,12 @@ def _text(value: str, style: int = 0) -> str:
     if not value:
         return "<c/>"
     look = f' s="{style}"' if style else ""
-    return f'<c{look} t="inlineStr"><is><t xml:space="preserve">{escape(_NO_XML.sub("", value))}</t></is></c>'
+    return f'<c{look} t="inlineStr"><is><t xml:space="preserve">{escape(in_xml(value))}</t></is></c>'
+
+
+def in_xml(text: str) -> str:
+    """Without what no XML can say: control characters."""
+    return _NO_XML.sub("", text)
 
 
 def _head(content: Content, names: Sequence[str]) -> str:
