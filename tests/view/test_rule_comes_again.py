@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
+import pytest
 
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.rule_for import range_rule, rules
@@ -50,6 +53,17 @@ def test_a_probe_at_the_end_of_its_range_gives_the_range() -> None:
     turned = range_rule(predicted(-measured), "um", 320 * 60.0, 399 * 60.0)
     assert turned is not None
     assert (turned.taken, turned.lost) == (79, 100)
+
+
+@pytest.mark.parametrize(("usual", "end"), [(1823.0, 1884.0), (1056.0, 1067.0), (-1240.0, -1300.0), (0.2, -0.7)])
+def test_its_limits_lie_between_what_it_measures_and_its_end(usual: float, end: float) -> None:
+    measured = usual + (end - usual) / 8 * np.sin(np.arange(N) / 90)
+    measured[320:400] = end
+    found = range_rule(predicted(measured), "um", 320 * 60.0, 399 * 60.0)
+    assert found is not None
+    assert (found.taken, found.lost) == (80, 0)
+    low, high = map(float, re.findall(r"(-?[\d.e+-]+) um", found.text))
+    assert ((measured >= low) & (measured <= high)).tolist() == (measured != end).tolist(), "as it is written"
 
 
 def test_a_probe_that_creeps_is_at_no_end() -> None:

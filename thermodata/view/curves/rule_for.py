@@ -105,17 +105,14 @@ def range_rule(found: Prediction, unit: str, from_s: float, to_s: float) -> Rule
         if not len(arrives) or np.median(np.abs(np.diff(x)[arrives])) < _LEAPS * abs(end - near):
             continue
         far = float(usual.min() if end > near else usual.max())
-        limits = sorted((_short(0.5 * (near + end)), _short(far - 0.5 * (end - far))))
+        way = end - far
+        limits = sorted((_between(near, end, 2), _between(far - 0.75 * way, far - 0.25 * way, 2)))
         kept = counts & (x >= limits[0]) & (x <= limits[1])
         taken, lost = int((inside & ~kept).sum()), int((counts & ~inside & ~kept).sum())
-        low, high = (f"{limit:g} {unit}" for limit in limits)
+        low, high = (f"{limit:.12g} {unit}" for limit in limits)
         text = f"{{in_range: {{{found.response}: [{low}, {high}]}}}}"
         return Rule(text, int(kept.sum()), taken, lost, _rms(found.residual[kept]))
     return None
-
-
-def _short(x: float) -> float:
-    return float(f"{x:.2g}")
 
 
 def _rms(x: Float1D) -> float | None:
@@ -137,20 +134,21 @@ def _conditions(
         low_in, high_in = np.quantile(x[inside & there], [1 - TAKES, TAKES])
         low_out, high_out = np.quantile(x[outside & there], [1 - keeps, keeps])
         if high_out < low_in:
-            limit = _round(high_out, low_in)
-            yield f"{text} < {limit:g}", x < limit
+            limit = _between(high_out, low_in)
+            yield f"{text} < {limit:.12g}", x < limit
         if high_in < low_out:
-            limit = _round(high_in, low_out)
-            yield f"{text} > {limit:g}", x > limit
+            limit = _between(high_in, low_out)
+            yield f"{text} > {limit:.12g}", x > limit
         if np.all(values[there] >= 0):
             break  # its size is itself
 
 
-def _round(low: float, high: float) -> float:
-    """The shortest number between two."""
+def _between(one: float, other: float, digits: int = 1) -> float:
+    """The shortest number between two, near their middle. digits: that it has at least."""
+    low, high = sorted((one, other))
     middle = 0.5 * (low + high)
-    for digits in range(1, 12):
-        value = float(f"{middle:.{digits}g}")
+    for n in range(digits, 12):
+        value = float(f"{middle:.{n}g}")
         if low < value < high:
             return value
     return middle
