@@ -248,8 +248,24 @@ def test_swapped_cables_show() -> None:
 
 
 def test_moves_that_fit_with_either_sign_are_refused() -> None:
-    with pytest.raises(CalibrationError, match="either sign"):
+    with pytest.raises(CalibrationError, match="either sign") as refused:
         jump([100, -100], recording([100, -100, 100], uneven=0.0))
+    # keys of a calibration, each of which makes it one place
+    assert "'moves'" in (refused.value.hint or "")
+    assert "facing: +Z, increases_with: gap" in (refused.value.hint or "")
+
+
+@pytest.mark.parametrize(("facing", "gain"), [("+Z", -25.0), ("-Z", 25.0)])
+def test_the_way_a_probe_looks_decides_between_two_signs(facing: str, gain: float) -> None:
+    turned = {"facing": facing, "increases_with": "approach"}
+    t, v = recording([100, -100, 100], gain, uneven=0.0)
+    assert evaluate_jump("jump_z", spec([100, -100], **turned), t, v).gain == pytest.approx(gain, rel=0.05)
+
+
+def test_the_way_a_probe_looks_decides_nothing_where_the_moves_fit_once() -> None:
+    t, v = recording([100, -40], -25.0)
+    with pytest.raises(CalibrationError, match="contradicts the way the probe looks"):
+        evaluate_jump("jump_z", spec([100, -40], facing="+Z", increases_with="gap"), t, v)
 
 
 @pytest.mark.parametrize("broken", ["flat", "noise", "short", "nan", "ramp", "other moves"])

@@ -51,7 +51,7 @@ def evaluate_jump(
     axis = facing_axis(name, spec.facing, spec.axis)
     moves = _checked_moves(name, spec)
     t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), dict(others or {}))
-    steps, match = _matched(t_s, v, moves, spec.dwell)
+    steps, match = _matched(t_s, v, moves, spec)
     if match is None:
         raise _on_rail(name, spec, v, unit) or _not_found(name, spec, moves, steps, t_s, probes)
     _refuse_either_sign(name, match, moves, len(steps), unit)
@@ -99,7 +99,9 @@ def _refuse_either_sign(name: str, match: Match, moves: list[float], steps: int,
             where=f"calibrations.{name}",
             expected=f"one place for the moves {moves} um among {steps} steps",
             got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
-            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
+            hint="write in 'moves' all moves of the recording, signed and in their order; or say which way the probe "
+            "looks, which decides: facing: +Z, increases_with: gap; next time move by unequal steps, e.g. [100 um, "
+            "50 um, -150 um]",
         )
 
 
@@ -111,18 +113,24 @@ def _refuse_short(name: str, dwells: Sequence[Plateau]) -> None:
             where=f"calibrations.{name}",
             expected=f"at least {_LEAST_AT_REST} samples a plateau",
             got=f"{min(p.n for p in dwells)}",
-            hint="dwell longer or sample faster",
+            hint="repeat the jump test: dwell longer or sample faster; until then a calibration of kind: scale, with "
+            "the data sheet's gain, facing and increases_with",
         )
 
 
-def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tuple[list[Step], Match | None]:
-    """(steps, those that are the moves); a staircase that goes much faster than declared is looked for too."""
+def _matched(t_s: Float1D, v: Float1D, moves: list[float], spec: JumpCalibration) -> tuple[list[Step], Match | None]:
+    """(steps, those that are the moves); a staircase that goes much faster than declared is looked for too. Where moves
+    to and fro fit at two places, with either sign, the way that the probe looks decides."""
+    dwell_s = spec.dwell
     steps, _ = find_steps(t_s, v, dwell_s)
     match = match_moves(steps, moves, dwell_s)
     if match is None and len(moves) > 1:
-        finer, _ = find_steps(t_s, v, dwell_s / 3)
-        match = match_moves(finer, moves, dwell_s / 3)
+        dwell_s /= 3
+        finer, _ = find_steps(t_s, v, dwell_s)
+        match = match_moves(finer, moves, dwell_s)
         steps = steps if match is None else finer
+    if match is not None and match.rivals and spec.facing is not None and spec.increases_with is not None:
+        match = match_moves(steps, moves, dwell_s, geometric_sign(spec.facing, spec.increases_with))
     return steps, match
 
 

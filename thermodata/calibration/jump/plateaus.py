@@ -148,8 +148,9 @@ def _step(t: Float1D, v: Float1D, low: int, high: int, centre: int, window: int)
     return Step(float((t[start] + t[stop]) / 2), size, float(t[start]), float(t[stop]))
 
 
-def match_moves(steps: list[Step], moves_um: list[float], dwell_s: float) -> Match | None:
-    """The run of steps that fits the moves in order with one sensitivity; None where none does.
+def match_moves(steps: list[Step], moves_um: list[float], dwell_s: float, sign: float = 0.0) -> Match | None:
+    """The run of steps that fits the moves in order with one sensitivity; None where none does. sign: of the
+    sensitivity; 0: either.
 
     Steps between matched ones may be left over, at a price (a disturbance); every move needs its step.
     """
@@ -160,6 +161,8 @@ def match_moves(steps: list[Step], moves_um: list[float], dwell_s: float) -> Mat
     best: list[tuple[float, Match]] = []
     for first in range(len(steps) - len(moves_um) + 1):
         k = sizes[first] / moves_um[0]
+        if k * sign < 0:
+            continue
         chain, cost = _follow(sizes, times, moves_um, k, first, dwell_s)
         if chain is None:
             continue

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of, notes_of
+from thermodata.draft.files.where_it_steps import where_it_steps
 from thermodata.draft.signals.guess import guess_of, says_nothing
 from thermodata.draft.signals.numerals import bare_word
 from thermodata.draft.signals.values import Values, joined, values_of
@@ -25,6 +26,7 @@ LONGEST_JUMP_NS = 3600 * 10**9
 HEAD_NS = 1800 * 10**9  # of a jump test at the beginning of a test
 _PROBES = ("displacement", "voltage")
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
+_PROBE_ROWS = 20_000  # of a block of a probe, which may be moved for seconds within hours
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
 _COURSE_IF_ROOM = ("power", None)  # None: what no name says its values may, as of a switch
 _MOST_COURSES = 40
@@ -75,7 +77,8 @@ class Sample:
     lost: what the first losses say;
     mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
     the file that the courses are of, where that is not all of it; periods_s: how far the rows of a stream are usually
-    apart; heads: the first half hour of each probe, of whose jump test a course may have no point on a plateau."""
+    apart; heads: the first half hour of each probe, of whose jump test a course may have no point on a plateau; steps:
+    the stretches of a long log in which a probe goes in sudden steps, as in a jump test."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -93,6 +96,7 @@ class Sample:
     extents: Mapping[tuple[str, str], tuple[float, float]] = field(default_factory=dict)
     periods_s: Mapping[str, float] = field(default_factory=dict)
     heads: Mapping[tuple[str, str], Course] = field(default_factory=dict)
+    steps: Mapping[tuple[str, str], tuple[Course, ...]] = field(default_factory=dict)
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
@@ -103,7 +107,9 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     repeats, clocks = RepeatedTimes(), dict[str, Clock]()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
-    wanted, worded = _courses(recording.signals), set[tuple[str, str]]()
+    worded = set[tuple[str, str]]()
+    probes = {(s.stream, s.name) for s in recording.signals if guess_of(s).quantity in _PROBES}
+    wanted = {k: _PROBE_ROWS if k in probes else _KEPT_ROWS for k in _courses(recording.signals)}
     first: int | None = None
     last: int | None = None
     unseen = {s.stream for s in recording.signals}
@@ -133,11 +139,10 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         items.close()  # type: ignore[attr-defined]
     first, last = extent_of(clocks) or (first, last)
     brief = whole and (last or 0) - (first or 0) <= LONGEST_JUMP_NS  # a jump test may be of what nothing tells of
-    probes = {(s.stream, s.name) for s in recording.signals if guess_of(s).quantity in _PROBES}
     told = {(s.stream, s.name) for s in recording.signals if brief or _tells(s, values.get((s.stream, s.name)))}
     return Sample(
         values,
-        {k: _thinned(v) for k, v in parts.items() if k in told},
+        {k: _thinned(_coarse(v)) for k, v in parts.items() if k in told},
         whole,
         hurried,
         first,
@@ -151,6 +156,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         notes_of(clocks),
         periods_s={stream: clock.period_s for stream, clock in clocks.items()},
         heads={k: _thinned(_head(v, first or 0)) for k, v in parts.items() if k in told and k in probes},
+        steps={} if brief else {k: _in_steps(v) for k, v in parts.items() if k in told and k in probes},
     )
 
 
@@ -192,10 +198,11 @@ def _take(
     block: Block,
     values: dict[tuple[str, str], Values],
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
-    wanted: set[tuple[str, str]],
+    wanted: Mapping[tuple[str, str], int],
     worded: set[tuple[str, str]],
 ) -> None:
-    """worded: signals so far with words that are none of a switch; they have no values."""
+    """wanted: signals whose course is kept -> about how many rows of a block; worded: signals so far with words that
+    are none of a switch; they have no values."""
     for name, column in block.values.items():
         key = (block.stream, name)
         seen = values_of(column)
@@ -208,13 +215,26 @@ def _take(
         if both is not None:
             values[key] = both
         if key in wanted and column.dtype.kind in "biuf":
-            step = max(1, column.size // _KEPT_ROWS)
+            step = max(1, column.size // wanted[key])
             parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
+
+
+def _coarse(parts: Sequence[tuple[Int1D, Array]]) -> list[tuple[Int1D, Array]]:
+    """The parts of a course, of each as many rows as one that tells what a test is needs."""
+    steps = [max(1, t.size // _KEPT_ROWS) for t, _ in parts]
+    return [(t[::step], x[::step]) for (t, x), step in zip(parts, steps, strict=True)]
 
 
 def _head(parts: Sequence[tuple[Int1D, Array]], first_ns: int) -> list[tuple[Int1D, Array]]:
     """What of the parts of a course lies in the first half hour, though that be nothing."""
     return [(t[early], x[early]) for t, x in parts for early in [t < first_ns + HEAD_NS]]
+
+
+def _in_steps(parts: Sequence[tuple[Int1D, Array]]) -> tuple[Course, ...]:
+    """The stretches in which a signal goes in sudden steps, as they were logged."""
+    t_ns, x = (np.concatenate(p) for p in zip(*parts, strict=True))
+    found = where_it_steps(t_ns, x)
+    return tuple(_thinned([(t_ns[a:b], x[a:b])]) for a, b in (np.searchsorted(t_ns, ends) for ends in found))
 
 
 def _thinned(parts: Sequence[tuple[Int1D, Array]]) -> Course:

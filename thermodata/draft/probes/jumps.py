@@ -26,7 +26,7 @@ NAMED = (
 )
 _LONGEST_S = LONGEST_JUMP_NS / 1e9
 _MOST_STEPS, _LEAST_STEPS = 40, 2
-_TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
+TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
 _ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
 _APART = 0.5  # of a dwell, from the last step of one probe to the first of another that moves in turn
 
@@ -127,7 +127,7 @@ def _probes(file: RawFile, named: bool) -> list[tuple[str, str]]:
         return found
     alone = all(map(is_length, said.values()))
     lengths = [key for key, g in said.items() if is_length(g) and (alone or axis_of(words(key[1])) is None)]
-    return [key for key in lengths if (v := file.sample.values.get(key)) and v.high - v.low < _TRAVEL_MM]
+    return [key for key in lengths if (v := file.sample.values.get(key)) and v.high - v.low < TRAVEL_MM]
 
 
 def is_nameless(said: Guess) -> bool:
@@ -158,7 +158,7 @@ def _others_move(file: RawFile, probes: Collection[tuple[str, str]]) -> bool:
             return True
         if quantity == "temperature" and seen.high - seen.low > 5:
             return True
-        if quantity == "position" and seen.high - seen.low > _TRAVEL_MM:
+        if quantity == "position" and seen.high - seen.low > TRAVEL_MM:
             return True
     return False
 
