@@ -13,7 +13,7 @@ from thermodata.draft.files.letters_of_files import encoding_declared_before
 from thermodata.draft.folder.look import Progress
 from thermodata.draft.folder.scan import Scan, scan
 from thermodata.draft.times.zones_before import zones_before
-from thermodata.draft.writing.baseline import model_text_of, responses_of
+from thermodata.draft.writing.baseline import left_out_of, model_text_of, responses_of
 from thermodata.draft.writing.by_hand import by_hand
 from thermodata.draft.writing.kept import with_answers
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
@@ -31,7 +31,8 @@ class Drafted:
     """campaign, model: the files that were written; model is None where no sensor allows one, or where one was there.
     no_model: what is missing for one, in words. kept: what was there before -> its new name. files: raw ones that a
     reader reads; seen: with those that none does. questions: lines that hold one. id_taken: the id that it would have,
-    and the file of the other campaign that the store holds by it."""
+    and the file of the other campaign that the store holds by it. left_out: channels that drive nothing in the model,
+    which says why."""
 
     campaign: Path
     model: Path | None
@@ -42,6 +43,7 @@ class Drafted:
     questions: int
     no_model: str | None = None
     id_taken: tuple[str, str] | None = None
+    left_out: tuple[str, ...] = ()
 
 
 def draft_files(
@@ -71,7 +73,8 @@ def draft_files(
         )
     name, plainly = id_of(folder, held), id_of(folder)
     draft, text = _with_answers(out, plan(name, folder, found, zones_before(out)), found)
-    model = model_text_of(parse_campaign(text, str(out)))
+    drafted = parse_campaign(text, str(out))
+    model = model_text_of(drafted)
     kept = [keep(out)]
     write_new(out, text)
     load_campaign(out)  # a draft that doesn't load is a defect: it raises here
@@ -93,6 +96,7 @@ def draft_files(
         questions_in(text),
         missing_for_a_model(text, load_campaign(out)) if model is None else None,
         None if name == plainly else (plainly, held[plainly]),
+        tuple(left_out_of(drafted, responses_of(drafted)[0])) if made else (),
     )
 
 
@@ -139,13 +143,15 @@ def write_answered(path: Path, text: str) -> tuple[Path, bool]:
 class FirstModel:
     """response: the displacement that it is of. responses: all that it may be of. kept: where a model file that
     somebody had changed is now; None where there was none. replaced: the other displacement that a draft was of
-    which nobody had changed, and which is gone; None where there was none."""
+    which nobody had changed, and which is gone; None where there was none. left_out: channels that drive nothing in
+    it, which says why."""
 
     model: Path
     response: str
     responses: tuple[str, ...]
     kept: Path | None
     replaced: str | None
+    left_out: tuple[str, ...] = ()
 
 
 def first_model(path: Path, response: str | None = None) -> FirstModel:
@@ -184,7 +190,8 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
     write_text(model, text)
     load_model(model)
     made = response or known[0]
-    return FirstModel(model, made, tuple(known), kept, None if before == made else before)
+    replaced = None if before == made else before
+    return FirstModel(model, made, tuple(known), kept, replaced, tuple(left_out_of(campaign, made)))
 
 
 def modelled(path: Path) -> str | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -58,6 +58,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         session.say(f"the {before.name} that was there is now {after}")
     if made.model is not None:
         session.say(_model_of(made, *responses_of_draft(made.draft)))
+        _say_left_out(session, made.left_out, made.model)
     if made.no_model is not None:
         session.say(made.no_model)
     draft = made.draft
@@ -114,6 +115,7 @@ def first_model_command(session: Session, campaign: Path, response: str | None) 
         )
     if made.kept is not None:
         session.say(f"the model.yaml that was there is now {made.kept}")
+    _say_left_out(session, made.left_out, made.model)
     session.answer(
         {
             "model": str(made.model),
@@ -134,6 +136,12 @@ def _model_of(made: Drafted, first: str, *others: str) -> str:
     are = "is" if len(others) == 1 else "are"
     command = f"thermodata first-model {made.campaign} --response {others[0]}"
     return f"{said}; {' and '.join(others)} {are} measured too: {command}"
+
+
+def _say_left_out(session: Session, channels: Sequence[str], model: Path) -> None:
+    """What is logged and drives nothing, of which each has its reason in the model file."""
+    if channels:
+        session.say(f"logged, and driving nothing in it: {', '.join(channels)}; the end of {model.name} says why")
 
 
 def _next_steps(made: Drafted, model: Path | None) -> str:

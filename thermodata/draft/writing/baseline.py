@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.writing.not_driving import why_not_driving
 from thermodata.draft.writing.seal import sealed
 from thermodata.draft.writing.write import flow, one_line, scalar
 from thermodata.effect.binding import unnamed
@@ -49,6 +50,13 @@ def model_text_of(campaign: Campaign, response: str | None = None) -> str | None
     return _text(campaign.id, _known(campaign), response)
 
 
+def left_out_of(campaign: Campaign, response: str) -> list[str]:
+    """The logged channels that drive nothing in the first model of a response, which says why."""
+    channels = _known(campaign)
+    chosen = _chosen(channels, channels[response].axis)
+    return list(chosen.why_not) if chosen is not None else []
+
+
 def responses_of(campaign: Campaign) -> list[str]:
     """The displacements that a first model may be of: the tool's before others, Z before Y before X before the rest."""
     channels = _known(campaign)
@@ -81,12 +89,12 @@ class _Sensors:
         effect = effects().get(name)
         return [] if effect is None else unnamed(effect, self.drivers)
 
-    def plain(self, name: str) -> str | None:
-        """The line of a plain effect, or of what stands for it where only its speed is logged; None without either."""
+    def plain(self, name: str) -> tuple[str, list[dict[str, str]]] | None:
+        """A plain effect, or what stands for it where only its speed is logged, and how the channels drive it; None
+        without either."""
         for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
             if fits := self.fitting(tried):
-                rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
-                return f"{_line(tried, fits[0])}   # {one_line(effects()[tried].meaning.split(':')[0])}{rest}"
+                return tried, fits
         return None
 
 
@@ -98,9 +106,8 @@ def _text(campaign: str, channels: Mapping[str, _KnownChannel], chosen: str | No
     if chosen is None:
         return None
     axis = channels[chosen].axis
-    drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
-    effect_lines = _effects(_Sensors(drivers, axis))
-    if effect_lines is None:
+    effects_chosen = _chosen(channels, axis)
+    if effects_chosen is None:
         return None
     alone = _is_tools(channels[chosen]) and sum(_is_tools(c) and c.axis == axis for c in channels.values()) == 1
     wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
@@ -116,8 +123,11 @@ def _text(campaign: str, channels: Mapping[str, _KnownChannel], chosen: str | No
         f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
         "step: 60 s",
         "effects:",
-        *effect_lines,
+        *effects_chosen.lines,
     ]
+    if effects_chosen.why_not:
+        text.append("# logged, and driving nothing here:")
+        text += [f"#   {scalar(name)}: {one_line(why)}" for name, why in effects_chosen.why_not.items()]
     if unplaced:
         text.append(f"# ? drive nothing until their place ('at') is answered: {with_count(unplaced, _SHOWN)}")
     return sealed("\n".join([*text, ""]))
@@ -134,26 +144,41 @@ def _measured_too(channels: Mapping[str, _KnownChannel], chosen: str, axes: Sequ
     return found
 
 
-def _effects(sensors: _Sensors) -> list[str] | None:
-    """The lines of the effects that have a sensor, then, behind '#', what else could be there; None where none has."""
-    lines, missing, elsewhere = [], [], []
+@dataclass(frozen=True, slots=True)
+class _Chosen:
+    """lines: of the effects that have a sensor, then, behind '#', what else could be there; why_not: channel -> why it
+    drives none."""
+
+    lines: list[str]
+    why_not: dict[str, str]
+
+
+def _chosen(channels: Mapping[str, _KnownChannel], axis: str | None) -> _Chosen | None:
+    """The effects of a response on an axis; None where none has a sensor."""
+    drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
+    sensors = _Sensors(drivers, axis)
+    lines, missing, elsewhere, used = list[str](), [], [], []
     for name in _PLAIN:
-        if (line := sensors.plain(name)) is not None:
-            lines.append(line)
+        if (plain := sensors.plain(name)) is not None:
+            taken, fits = plain
+            used.append((taken, fits[0]))
+            rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
+            lines.append(f"{_line(taken, fits[0])}   # {one_line(effects()[taken].meaning.split(':')[0])}{rest}")
         elif there := sensors.anywhere(name):
             elsewhere.append(f"{name} ({one_line(', '.join(there[0].values()))})")
         else:
             missing.append(name)
     if not lines:
         return None
-    if offered := [_line(name, fits[0]) for name in _OFFERED if (fits := sensors.fitting(name))]:
+    offered = [(name, fits[0]) for name in _OFFERED if (fits := sensors.fitting(name))]
+    if offered:
         lines.append("# logged too, and left to thermodata diagnose; to have one now, delete its '#':")
-        lines += [f"#{line}" for line in offered]
+        lines += [f"#{_line(name, by)}" for name, by in offered]
     if elsewhere:
         lines.append(f"# {_elsewhere(sensors.axis)}: {', '.join(elsewhere)}")
     if missing:
         lines.append(f"# no sensor for: {', '.join(missing)}")
-    return lines
+    return _Chosen(lines, why_not_driving(drivers, used, offered, axis))
 
 
 def _elsewhere(axis: str | None) -> str:
