@@ -73,6 +73,35 @@ def test_a_clock_that_cannot_be_aligned_is_suspect_and_told(store: Store, tmp_pa
     assert {name for name, info in infos.items() if info.clock_doubtful} == {"speed"}
 
 
+@pytest.mark.parametrize(
+    ("off_s", "said", "key"),
+    [
+        (3600.0, "its log begins 1 h before and ends 1 h 1 min 41 s before that of 'daq'", "clocks: {nc: +61 min}"),
+        (-3600.0, "its log begins 1 h behind", "clocks: {nc: -59 min}"),
+        (60.0, "its log begins 1 min before", "what has to be added to its times goes into clocks: {nc: ...}"),
+        (0.0, "its log begins with and ends 1 min 41 s before", "clocks: {nc: 0 s} of the test says so"),
+    ],
+)
+def test_by_how_much_a_suspect_clock_is_off_is_told_with_the_key_that_puts_it_right(
+    store: Store, tmp_path: Path, off_s: float, said: str, key: str
+) -> None:
+    path = lab(tmp_path / "lab", ALIGNED, off_s=off_s, constant=True)
+    (told,) = [x["reason"] for x in ingest(store, path).losses if "not aligned" in x["reason"]]
+    with store.reader() as con:
+        ((detail,),) = con.execute("select detail from quality_event where flag = 'clock_suspect'").fetchall()
+    for text in (told, detail):
+        assert said in text
+        assert key in text
+    if off_s == -3600.0:
+        text = path.read_text("utf-8")
+        path.write_text(text.replace("{id: one,", "{id: one, clocks: {nc: -59 min},"), encoding="utf-8")
+        assert not any("not aligned" in x["reason"] for x in ingest(store, path).losses)
+        with store.reader() as con:
+            assert con.execute("select count(*) from driver where flag & 64 <> 0").fetchall() == [(0,)]
+            (infos,) = [found for (_, test), found in channel_infos(con, ["shop"]).items() if test == "one"]
+        assert not any(info.clock_doubtful for info in infos.values())
+
+
 @pytest.mark.parametrize(("apart_s", "alike"), [(4.0, True), (300.0, False)])
 def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
     store: Store, tmp_path: Path, apart_s: float, alike: bool

@@ -81,8 +81,9 @@ def _clocks(fitted: FittedModel, data: Dataset) -> list[Check]:
             value=None,
             threshold=None,
             passed=False,
-            advice=f"{one.sentence}; it may lie minutes off: declare clock: {{offset: ...}} of the source, or clocks "
-            "of the test, by what both logs show, then ingest and fit again",
+            advice=f"{one.sentence}; it may lie minutes off, and is fitted as it stands: thermodata quality says how "
+            "its log lies beside the other; declare clock: {{offset: ...}} of the source, or clocks of the test, by "
+            "what both logs show, then ingest and fit again, or leave the test out of calibrate_on",
         )
         for one in doubtful_clocks(fitted, data)
     ]

@@ -17,6 +17,7 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.schema.units.value import value_in
 from thermodata.store.base.files import key_of
+from thermodata.store.tidy.clock.beside_of import how_far_apart
 from thermodata.store.tidy.clock.second_pass import choose_passes
 from thermodata.store.tidy.clock.set_late import tell_clocks_set_late
 from thermodata.store.tidy.clock.source_clock import Clock, Span, first_ns, is_relative
@@ -158,7 +159,8 @@ class _Alignment:
         best = self._by_events(reasons) or self._by_channels(store, reasons)
         if best is None:
             why = "; ".join(reasons) or "neither 'by' nor 'events' names anything that both logged"
-            note = f"clock not aligned to '{there}': {why}"
+            apart = how_far_apart(self.source, declared, self.there, self.declared[there])
+            note = f"clock not aligned to '{there}': {apart}; {why}"
             return Clock(declared.offset_ns, declared.drift_ppm, declared.base_ns, True, self.key, (note,))
         how = (
             f"from {best.stretches} declared events"

@@ -130,7 +130,7 @@ def _doubtful_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -
     """(campaign, test, source), where the whole clock is doubtful."""
     rows = con.execute(
         "select distinct campaign, test, source from quality_event where list_contains(?, campaign) "
-        "and flag = 'clock_suspect' and channel is null and detail = ?",
+        "and flag = 'clock_suspect' and channel is null and starts_with(detail, ?)",
         [list(campaigns), WHOLE_CLOCK],
     )
     return {(campaign, test, source) for campaign, test, source in rows.fetchall()}

@@ -127,7 +127,7 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
     else:
         shifts = [_start_of(r) for r in ordered]
     first = min(s + r.first_ns for r, s in zip(ordered, shifts, strict=True))
-    return make_timeline(
+    line = make_timeline(
         store,
         list(zip(ordered, shifts, strict=True)),
         lambda t: clock.correct(t, first),
@@ -136,6 +136,8 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
         notes=notes,
         shared=shared,
     )
+    line.doubt = "; ".join(clock.notes) if clock.suspect else ""
+    return line
 
 
 def _end_to_end(raws: Sequence[RawStream]) -> list[int]:

@@ -25,7 +25,8 @@ _MOST_STRETCHES = 50
 @dataclass(slots=True)
 class Timeline:
     """rows: how many. raws: (raw, what is added to its times [ns]) in file order. cut: (first, past-the-last) rows of
-    them that are left out, shape (k, 2). parts: what files have under other names, or in other units (`in_parts`).
+    them that are left out, shape (k, 2). doubt: why the whole clock
+    is suspect. parts: what files have under other names, or in other units (`in_parts`).
 
     Row numbers count in time order. Not shared between threads.
     """
@@ -40,6 +41,7 @@ class Timeline:
     notes: tuple[str, ...] = ()
     cut: Int1D = field(default_factory=lambda: np.empty((0, 2), np.int64))
     parts: Parts = field(default_factory=dict)
+    doubt: str = ""
     _files: RawFiles = field(default_factory=RawFiles)
     _times: Int1D | None = None
 
@@ -93,7 +95,7 @@ class Timeline:
                     int(self.times(0, 1)[0]),
                     int(self.times(self.rows - 1, self.rows)[0]),
                     self.rows,
-                    WHOLE_CLOCK,
+                    f"{WHOLE_CLOCK}: {self.doubt}" if self.doubt else WHOLE_CLOCK,
                 )
             ]
         marked, stretches = self.order.marked, []
