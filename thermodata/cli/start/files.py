@@ -80,6 +80,8 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
             f"not used ({named}): the end "
             f"of {made.campaign.name} says why"
         )
+    if draft.machines.asked is not None:
+        session.say(one_line(draft.machines.asked))
     session.say(
         f"{counted(made.files, 'file')}, {counted(len(draft.tests), 'test')}, {counted(len(draft.sources), 'source')}, "
         f"{counted(sum(c.said.quantity is not None for c in draft.channels) + len(draft.derived), 'channel')}; "

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.draft.campaign.two_campaigns import Campaigns
 from thermodata.draft.courses.kinds import Kind
 from thermodata.draft.courses.measuring import Measuring
 from thermodata.draft.folder.beside.table import TestTable
@@ -106,7 +107,7 @@ class DraftTest:
 class Draft:
     """A campaign file to be. not_used: (path, reason); unused: the files among them of which nothing is read; failed:
     (path, reader) of those among them that a reader claims and could not read; damaged: (path, what); table: of tests,
-    where one is there."""
+    where one is there; machines: what the files say of whose they are."""
 
     campaign: str
     sources: tuple[DraftSource, ...]
@@ -120,3 +121,4 @@ class Draft:
     failed: tuple[tuple[str, str], ...] = ()
     unused: tuple[str, ...] = ()
     derived: tuple[DerivedChannel, ...] = ()
+    machines: Campaigns = field(default_factory=Campaigns)

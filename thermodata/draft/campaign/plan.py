@@ -22,6 +22,7 @@ from thermodata.draft.campaign.hardly_looked_at import hardly_looked_at
 from thermodata.draft.campaign.jumps.jump_sources import with_their_sources
 from thermodata.draft.campaign.jumps.jumps_used import idle_jumps, jumps_of
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump
+from thermodata.draft.campaign.two_campaigns import campaigns_in
 from thermodata.draft.folder.beside.clock_said import clocks_said
 from thermodata.draft.folder.beside.notes import described_in
 from thermodata.draft.folder.beside.table import TestTable, closed_workbooks, find_table
@@ -55,7 +56,10 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     beside = BesideSource(folder, groups, aligned, table, found.ignored, before, started)
     own = own_calibrations(groups, keyed, of_groups.channels, of_groups.calibrations)
     tests = tuple(replace(t, channels=own.get(t.id, {})) for t in tests)
-    sources = with_renamed_asked(asked_once(drafted_sources(beside), groups), groups, of_groups.channels)
+    sources = asked_once(drafted_sources(beside), groups)
+    campaigns = campaigns_in(folder, groups)
+    if not campaigns.certain:
+        sources = with_renamed_asked(sources, groups, of_groups.channels)
     jumps_drafted, every_source = with_their_sources(of_groups.calibrations, sources)
     idle = idle_jumps(jumps, of_probes, of_groups.calibrations, found.logs, groups)
     left_out = (*_but_of(table, found.ignored), *sorted_out.unread, *idle)
@@ -83,6 +87,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
         _but_of(table, found.failed),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
         feeds_of_positions(of_groups.channels, groups),
+        campaigns,
     )
 
 

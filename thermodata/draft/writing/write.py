@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
 from thermodata.draft.campaign.parts import DerivedChannel, Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.campaign.two_campaigns import Campaigns
 from thermodata.draft.probes.which_way import calibration_for
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
 from thermodata.schema.agreed.left_out import left_out
@@ -39,7 +40,7 @@ def text_of(draft: Draft) -> str:
         "schema: thermodata/campaign/1",
         f"id: {scalar(draft.campaign)}",
         "machine:",
-        "  id: unknown                      # ? the machine's number",
+        f"  id: unknown                      # ? {_whose(draft.machines)}",
         "sources:"
         if draft.sources
         else f"sources: {{}}                        # {_NOBODY_COULD if draft.failed else _NOBODY}",
@@ -63,6 +64,12 @@ def text_of(draft: Draft) -> str:
     lines += [left_out(one_line(p), one_line(why)) for p, why in draft.not_used]
     lines += [f"# note: {one_line(n)}" for n in draft.notes]
     return "\n".join(lines) + "\n"
+
+
+def _whose(machines: Campaigns) -> str:
+    if machines.asked is not None:
+        return one_line(f"{machines.asked}; else the machine's number")
+    return "the machine's number" + (f": '{one_line(machines.machine)}', as logs call it?" if machines.machine else "")
 
 
 def questions_in(text: str) -> int:
