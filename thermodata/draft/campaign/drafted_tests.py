@@ -11,6 +11,7 @@ from pathlib import Path
 from thermodata.draft.campaign.parts import DraftTest
 from thermodata.draft.courses.kinds import Kind, kind_of
 from thermodata.draft.courses.measuring import Measuring, rule_of
+from thermodata.draft.courses.same_rule import same_rules
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.beside.listed_times import ListedTime
@@ -73,9 +74,9 @@ def drafted_tests(
         t: _BesideTest(rows.get(t, {}), times.get(t), notes.get(t), warm.get(t), versions.get(t), *more[t]) for t in ids
     }
     called = without_number(ids)
-    return tuple(
-        _drafted(t, recordings[t], groups, rule_of(recordings[t], named, clocks), beside[t], called[t]) for t in ids
-    )
+    rules, differ = same_rules({t: rule_of(recordings[t], named, clocks) for t in ids}, recordings, named, clocks)
+    drafted = (_drafted(t, recordings[t], groups, rules[t], beside[t], called[t]) for t in ids)
+    return tuple(replace(d, doubts=(*d.doubts, differ[d.id])) if d.id in differ else d for d in drafted)
 
 
 def _drafted(

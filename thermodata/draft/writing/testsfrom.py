@@ -35,8 +35,10 @@ def pattern_of(draft: Draft) -> Pattern | None:
     tests = draft.tests
     if len(tests) < _LEAST or len({t.kind.kind for t in tests}) > 1 or draft.table:
         return None
-    if any(t.files or t.kind.start or t.channels for t in tests):
+    if any(t.files or t.kind.start or t.channels or t.measuring or t.window for t in tests):
         return None  # each has its own
+    if any(set(t.doubts) - set(t.kind.doubts) for t in tests):
+        return None  # what is asked of one has no line there
     source = next(
         (
             s
