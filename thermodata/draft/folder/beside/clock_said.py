@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.folder.beside.notes import text_of_notes
+from thermodata.draft.folder.beside.numbers_in_words import in_digits
 from thermodata.reader.text.tables.sample.zone_named import named_in
 
 _AMOUNT = re.compile(
@@ -34,9 +35,10 @@ _BEHIND = r"(?=\s*(?:$|[.,;)]|geg|vs\b))"  # 'vor' and 'nach' that lead to nothi
 # what has a clock, or verbs that only clocks have: 'GL840 geht 2 min vor'
 _CLOCK = (
     r"\b(?:clocks?|uhr|systemuhr|hodiny|horloge|orologio|reloj|\w*logger|recorder|enregistreur|registratore)\b"
+    r"|\b(?:nc|cnc|plc|sps|pc|control|steuerungs?|system|machine|maschinen|logger)[- ]?(?:zeit|time)\b"
     rf"|\b(?:geht|ging|gehen)\b[^.;\n]*\d[^.;\n]*\b(?:vor|nach)\b{_BEHIND}|\bjd(?:e|ou)\s+o\b"
 )
-_OF_UHR = r"uhr\b[^.;\n]*\d\s*(?:s|sec|sek\w*|min\w*|h|std|stunden?)\s+"
+_OF_UHR = r"(?:uhr|zeit)\b[^.;\n]*\d\s*(?:s|sec|sek\w*|min\w*|h|std|stunden?)\s+"
 _IN_SIGNS = {"時計": "clock", "遅れ": "slow", "進ん": "fast", "時間": "h", "分": "min", "秒": "s"}
 _SLOW = (
     rf"slow|behind|{_OF_UHR}nach{_BEHIND}|(?:geht|ging|gehen)[^.;\n]*\bnach|"
@@ -88,7 +90,7 @@ def offset_of(sentence: str) -> str | None:
         return None
     for sign, word in _IN_SIGNS.items():
         sentence = sentence.replace(sign, f" {word} ")
-    sentence = sentence.strip(" .;")
+    sentence = in_digits(sentence.strip(" .;"))
     amounts = set(_amounts(sentence))
     slow, fast = (re.search(rf"\b(?:{some})\b", sentence, re.IGNORECASE) for some in (_SLOW, _FAST))
     of_clock = re.search(_CLOCK, sentence, re.IGNORECASE) is not None

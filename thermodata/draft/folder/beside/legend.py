@@ -10,12 +10,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.beside.lists_in_texts import bracketed, in_prose, listed
+from thermodata.draft.folder.beside.lists_in_texts import bracketed, in_prose, listed, piped
+from thermodata.draft.folder.beside.notes import described_in
 from thermodata.draft.folder.beside.said_twice import begins_with_a_time, of_names
 from thermodata.draft.folder.beside.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, readable
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.signals.guess import SENSOR
 from thermodata.draft.words.filenames import normal
+from thermodata.draft.words.naming import words as spelt
+from thermodata.draft.words.vocabulary import places_in, quantities_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
@@ -27,7 +30,9 @@ from thermodata.schema.words.sentences import with_count
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
 TOLD_TOO = "described_there_too"  # that says what else stands there
 _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3
+_TEXTS = (".md", ".rst", "")
 _SHOWN = 4
+_EAST_ASIA = 0x2E80
 _OWN = ("quantity", "axis", "at", "sign")
 _ONCE = 3  # of so many names one may be named again: a list of what happened names most
 _AXES = frozenset("XYZUVWABC")
@@ -77,12 +82,13 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
     own: dict[str, Legend] = {}
-    for file in dict.fromkeys((*found.others, *books)):
+    for file in dict.fromkeys((*found.others, *described_in(folder, ()), *books)):
         path = readable(folder / file)
-        if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
+        if path is None or path.suffix.lower() not in (*SUFFIXES, *_TEXTS) or path.stat().st_size > LARGEST:
             continue
         lists = [] if path.suffix.lower() in WORKBOOKS else _lists_of(path, names)
-        for rows in (*grids_of(path, _MOST_ROWS), *lists):
+        grids = () if path.suffix.lower() in _TEXTS else grids_of(path, _MOST_ROWS)
+        for rows in (*grids, *lists):
             if (legend := _legend(file, rows, names, tests)) is not None:
                 if file in books and any(s.own for s in legend.says.values()):
                     own[file] = legend
@@ -114,13 +120,18 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
         among = [r for r in own if r in named or not (normal(r[key]) in tests or any(map(begins_with_a_time, r)))]
         words = {r[key].casefold() for r in named}
         again = {w for w, n in Counter(r[key].casefold() for r in named).items() if n > 1}
-        if len(words) < max(_FEWEST, (len(among) - 1) / 2) or len(again) * _ONCE > len(words):
+        # a list of one or two says what signals are where it has nothing but these, and they are known parts
+        few = len(words) < _FEWEST and len(among) - len(named) <= 1
+        least = 1 if few else _FEWEST
+        if len(words) < max(least, (len(among) - 1) / 2) or len(again) * _ONCE > len(words):
             continue
         if all(normal(r[key]) in tests for r in named):
             continue
         for column in range(max(map(len, named))):
             said = of_names([(r[key], r[column]) for r in named if column < len(r)], _is_words)
-            if column != key and len(said) >= _FEWEST and len({s.text for s in said.values()}) * 2 > len(said):
+            if few and not all(_is_part(one.text) for one in said.values()):
+                continue
+            if column != key and len(said) >= least and len({s.text for s in said.values()}) * 2 > len(said):
                 beside = [c for c in range(max(map(len, named))) if c not in (key, column)]
                 units, axes = _column(named, key, beside, _is_unit), _column(named, key, beside, _AXES.__contains__)
                 found = {word: replace(_parted(of.name, of.text), others=of.others) for word, of in said.items()}
@@ -185,7 +196,12 @@ def _lists_of(path: Path, names: Set[str]) -> list[list[list[str]]]:
     except (ThermodataError, OSError):
         return []
     lines = [line.strip() for line in text.splitlines()]
-    return [bracketed(lines, _MOST_ROWS), listed(lines, _MOST_ROWS), in_prose(lines[:_MOST_ROWS], names)]
+    return [
+        piped(lines, _MOST_ROWS),
+        bracketed(lines, _MOST_ROWS),
+        listed(lines, _MOST_ROWS),
+        in_prose(lines[:_MOST_ROWS], names),
+    ]
 
 
 def _is_unit(cell: str) -> bool:
@@ -197,7 +213,15 @@ def _is_place(cell: str) -> bool:
 
 
 def _is_words(cell: str) -> bool:
-    return sum(map(str.isalpha, cell)) >= _SHORTEST and not is_unit(cell)
+    # a sign of East Asia is a word, or half of one
+    letters = sum(2 if ord(c) >= _EAST_ASIA else 1 for c in cell if c.isalpha())
+    return letters >= _SHORTEST and not is_unit(cell)
+
+
+def _is_part(text: str) -> bool:
+    """Whether words name a part of a machine or its surroundings, or what is measured."""
+    said = spelt(text)
+    return bool(places_in(said) or quantities_in(said))
 
 
 def described_by(file: RawFile, legend: Legend) -> RawFile:

@@ -33,6 +33,13 @@ def bracketed(lines: Sequence[str], most: int) -> list[list[str]]:
     return [[m["name"], m["text"].strip(), m["more"].strip()] for m in named] if len(named) >= _FEWEST else []
 
 
+def piped(lines: Sequence[str], most: int) -> list[list[str]]:
+    """The rows of a table of Markdown, without the line below its head; none where a text has none."""
+    rows = [[c.strip(" *`") for c in line.strip().strip("|").split("|")] for line in lines[:most] if "|" in line]
+    full = [row for row in rows if len(row) > 1 and not all(re.fullmatch(r":?-*:?", c) for c in row)]
+    return full if len(full) < len(rows) else []
+
+
 def in_prose(lines: Sequence[str], names: Set[str]) -> list[list[str]]:
     """What lines say of signals, several in a line ('S1 front bearing; S2 = bed'), as rows of a name and words. None
     where few are such, where one is said twice, or where most are no places: 'T1 broke, T2 is fine'. names: what
@@ -54,4 +61,4 @@ def _says_what(text: str, names: Set[str]) -> bool:
     return len(each) <= _MOST_WORDS and not names & set(inner) and not re.search(r"\d", " ".join(inner))
 
 
-__all__ = ["bracketed", "in_prose", "listed"]
+__all__ = ["bracketed", "in_prose", "listed", "piped"]
