@@ -15,6 +15,7 @@ from thermodata.draft.folder.scan import Scan, scan
 from thermodata.draft.times.zones_before import zones_before
 from thermodata.draft.writing.baseline import left_out_of, model_text_of, responses_of
 from thermodata.draft.writing.by_hand import by_hand
+from thermodata.draft.writing.deleted import without_deleted
 from thermodata.draft.writing.kept import with_answers
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
 from thermodata.draft.writing.own_id import NOTHING_HELD, id_of
@@ -111,7 +112,7 @@ def _with_answers(out: Path, draft: Draft, found: Scan) -> tuple[Draft, str]:
     if said := list(hand.signals()):
         draft = plan(draft.campaign, out.parent, with_what_was_said(found, said, draft), zones_before(out))
     try:
-        filled = with_answers(text_of(draft), hand)
+        filled = without_deleted(with_answers(text_of(draft), hand), str(before))
         parse_campaign(filled, str(out))
     except ThermodataError as error:
         why = f"what the campaign file before has by hand is not kept: {error.what}"

@@ -10,6 +10,7 @@ from pathlib import PurePosixPath
 from thermodata.draft.campaign.parts import DerivedChannel, Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.campaign.two_campaigns import Campaigns
 from thermodata.draft.probes.which_way import calibration_for
+from thermodata.draft.writing.deleted import drafted_with
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
 from thermodata.schema.agreed.left_out import left_out
 
@@ -63,7 +64,7 @@ def text_of(draft: Draft) -> str:
     lines += [f"# damaged: {one_line(p)}: {one_line(why)}" for p, why in draft.damaged]
     lines += [left_out(one_line(p), one_line(why)) for p, why in draft.not_used]
     lines += [f"# note: {one_line(n)}" for n in draft.notes]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *drafted_with(draft)]) + "\n"
 
 
 def _whose(machines: Campaigns) -> str:
