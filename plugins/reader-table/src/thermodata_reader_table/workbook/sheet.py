@@ -21,7 +21,7 @@ from thermodata.reader.text.page.timed.group import STREAM, Group, heads_of_bloc
 from thermodata.reader.text.preamble.begin import declared_start
 from thermodata.reader.text.preamble.titles import dated_titles
 from thermodata.reader.text.rows.footer import is_footer
-from thermodata.reader.text.tables.blocks.another_header import another_in_sheet, repeated_in_sheet
+from thermodata.reader.text.tables.blocks.another_header import another_in_sheet, in_one_order, repeated_in_sheet
 from thermodata.reader.text.tables.sample.zone_named import named_note
 from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.times.zone import NAT
@@ -71,12 +71,12 @@ class Table:
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.losses: list[Loss] = []
         self.head = sheet.rows[: layout.first]
-        rows = sheet.rows[layout.first :]
-        if (other := another_in_sheet(layout, self.head, rows)) is not None:
+        rows, named = in_one_order(layout, self.head, sheet.rows[layout.first :])
+        if (other := another_in_sheet(layout, self.head, rows, named)) is not None:
             lost = 1 - other[0] / len(rows)
             self.losses.append(Loss(f"{where} row {layout.first + other[0] + 1}", None, None, lost, other[1]))
             rows = rows[: other[0]]
-        self.repeats = repeated_in_sheet(self.head, rows)
+        self.repeats = repeated_in_sheet(self.head, rows) | {n for n in named if n < len(rows)}
         rows = [[None] * len(row) if n in self.repeats else row for n, row in enumerate(rows)] if self.repeats else rows
         self.columns = list(zip(*rows, strict=False))
         self._by_words()

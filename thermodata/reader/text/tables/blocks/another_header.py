@@ -13,7 +13,7 @@ from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
 from thermodata.reader.text.page.header.header_again import repeats_of
 from thermodata.reader.text.page.layout import Layout
-from thermodata.reader.text.tables.blocks.read_on import Under, under_header
+from thermodata.reader.text.tables.blocks.read_on import Under, under_header, under_names
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.units.spelling import spelled
 
@@ -81,10 +81,11 @@ def _more(under: Under) -> str:
 
 
 def another_in_sheet(
-    layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]
+    layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]], named: frozenset[int]
 ) -> tuple[int, str] | None:
-    """The same of the rows of a sheet, counted from 0. head: the rows above them."""
-    repeats = repeated_in_sheet(head, rows)
+    """The same of the rows of a sheet, counted from 0. head: the rows above them; named: those that name the columns
+    anew."""
+    repeats = repeated_in_sheet(head, rows) | named
     for number, row in enumerate(rows):
         if number not in repeats and all(isinstance(c, str) or c is None for c in row):
             cells = texts_of(row)
@@ -92,6 +93,30 @@ def another_in_sheet(
             if reason := begins_another(layout, cells, shown, number - 1 in repeats):
                 return number, reason
     return None
+
+
+def in_one_order(
+    layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]
+) -> tuple[Sequence[Sequence[Cell]], frozenset[int]]:
+    """(the rows of a sheet, each cell under its own column though a header names them in another order from there on;
+    such headers, counted from 0). head: the rows above them."""
+    if len(layout.groups) > 1 or layout.fit is not None or any(layout.worded):
+        return rows, frozenset()
+    repeats = repeated_in_sheet(head, rows)
+    under: Under | None = None
+    made, named = list(rows), set[int]()
+    for number, row in enumerate(rows):
+        if number in repeats:
+            under = None
+            continue
+        texts = texts_of(row) if all(isinstance(c, str) or c is None for c in row) else []
+        found = under_names(layout, [True] * len(layout.names), texts) if names_again(layout, texts) else None
+        if found is not None and not found.more:
+            under = found if found.moved else None
+            named.add(number)
+        elif under is not None:
+            made[number] = [row[p] if 0 <= p < len(row) else None for p in under.at]
+    return (made, frozenset(named)) if named else (rows, frozenset())
 
 
 def repeated_in_sheet(head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]) -> frozenset[int]:

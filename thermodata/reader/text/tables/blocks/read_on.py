@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.rows.grid import Grid, Rows
 from thermodata.reader.text.tables.table import Table
 from thermodata.schema.units.spelling import spelled
@@ -65,6 +66,14 @@ def under_header(table: Table, cells: Sequence[str]) -> Under | None:
     layout = table.layout
     if len(table.groups) > 1 or layout.fit is not None or table.columns is not None or layout.worded:
         return None
+    under = under_names(layout, [kind is not None for kind in table.kinds], cells)
+    if under is not None and under.more and table.begin is not None:
+        return None  # whether its rows count from another start shows by rows of the same width only
+    return under
+
+
+def under_names(layout: Layout, filled: Sequence[bool], cells: Sequence[str]) -> Under | None:
+    """The same of the layout of a text or a sheet. filled: whether a column holds anything, of each."""
     cells = [*cells]
     while cells and not cells[-1]:
         cells.pop()
@@ -73,19 +82,17 @@ def under_header(table: Table, cells: Sequence[str]) -> Under | None:
     if len({told[k][0] for k in free} - {""}) < len(free):
         return None
     at = list[int]()
-    for i, (name, unit, kind) in enumerate(zip(layout.names, layout.units, table.kinds, strict=True)):
+    for i, (name, unit, holds) in enumerate(zip(layout.names, layout.units, filled, strict=True)):
         if i in layout.time:
             at.append(i)
             continue
         own, of_name = _name_and_unit(name)
         units = ("", of_name if unit is None else spelled(unit) or unit)  # it may stand in a line below
         place = next((k for k in free if told[k][0] == own and told[k][1] in units), _GONE)
-        if place == _GONE and kind is not None:
+        if place == _GONE and holds:
             return None
         at.append(place)
     more = tuple(cells[k] for k in free if k not in at)
-    if more and table.begin is not None:
-        return None  # whether its rows count from another start shows by rows of the same width only
     return Under(tuple(at), max(len(cells), *(i + 1 for i in layout.time)), more)
 
 
