@@ -16,6 +16,7 @@ from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.words.sentences import with_dots
 
 _NAMED = 4
+_BOOKS = (".xlsx", ".xlsm")
 # what programs call a sheet that nobody named, and what anything is called
 _NO_NAME = re.compile(
     r"(?i)(sheet|tabelle|feuille?|foglio|hoja|planilha|folha|list|arkusz|blad|ark|munka(lap)?|лист|工作表|シート|"
@@ -27,7 +28,29 @@ _NO_NAME = re.compile(
 def one_or_many(group: Group, groups: Sequence[Group], listed: Collection[str]) -> tuple[str, ...]:
     """What to ask of a source whose tests may be one. listed: the tests that a table names."""
     tests = {t: f for t, f in group.tests.items() if t not in listed and not _dated(t, groups)}
-    return (*_of_sheets(tests, group), *_of_files(tests, group), *_of_joined(tests))
+    return (*_of_sheets(tests, group), *_of_files(tests, group), *_of_joined(tests), *_side_by_side(group))
+
+
+def _side_by_side(group: Group) -> list[str]:
+    """Tables of the same columns that stand beside each other, each under a title: the file is read as one test."""
+    for file in group.files:
+        own: dict[str, set[str]] = {}
+        for signal in file.signals:
+            title, _, rest = signal.stream.rpartition("/")
+            if title and rest and signal.name.startswith(f"{title}/"):
+                own.setdefault(title, set()).add(signal.name.removeprefix(f"{title}/"))
+        alike = [t for t, names in own.items() if sum(len(names & o) * 2 > len(names) for o in own.values()) > 1]
+        if file.sheet is None and len(alike) > 1:
+            kind, each = ("a sheet", ', and table: {sheet: "{test}"}') if _is_book(file) else ("a file", "")
+            return [
+                f"{_shown(alike)} stand side by side in {file.path} with the same columns: a test each? They are read "
+                f"as one test: put each into {kind} of its own{each}, then thermodata init --force"
+            ]
+    return []
+
+
+def _is_book(file: RawFile) -> bool:
+    return file.path.suffix.lower() in _BOOKS
 
 
 def _of_sheets(tests: dict[str, tuple[RawFile, ...]], group: Group) -> list[str]:
