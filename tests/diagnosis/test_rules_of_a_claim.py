@@ -302,6 +302,17 @@ def test_noise_is_five_times_the_short_one_and_less_where_that_is_large(
     assert Measure(spread, noise, np.zeros(0)).noises == pytest.approx(noises)
 
 
+def test_a_large_noise_is_that_of_the_means_that_are_compared() -> None:
+    """0.7 um a minute are 0.4 um in means of 3 min: 1.17 um of left-out tests are more than noise, as locked samples
+    they are not. What is small anyway covers the slow noise, which no mean lessens."""
+    loud = Measure(2.5, 0.7, np.zeros(0), averaged=3)
+    assert loud.noises == loud.floor == pytest.approx(1.4 / np.sqrt(3)) and loud.floor_of_samples == pytest.approx(1.4)
+    quiet, alone = (Measure(5.1, 0.1, np.zeros(0), averaged=n) for n in (9, 1))
+    assert quiet.noises == alone.noises == pytest.approx(0.5)
+    strong = Measure(8.0, 0.7, np.zeros(0), averaged=3)
+    assert strong.floor < strong.said == pytest.approx(np.hypot(0.7, 0.8)), "locked tests are judged by samples"
+
+
 def test_what_is_explained() -> None:
     one = scored(before=[2.0] * 5 + [1.0] * 5, after=[1.0] * 10, size=[1.0] * 5 + [0.0] * 5)
     assert explained(one) == pytest.approx(np.sqrt(3.0)), "where it acts"

@@ -59,7 +59,7 @@ def test_a_part_has_a_hundred_samples(counted: int, parts: int) -> None:
 )
 def test_nine_thousand_samples_or_what_is_asked_for_are_enough(n: int, rows: dict[str, int], every: int) -> None:
     found = built([n] * 3, n, **rows)
-    assert found.step_s == 60.0 * every
+    assert (found.step_s, found.averaged) == (60.0 * every, every)
     assert found.rows == 3 * -(-n // every)
 
 

@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     from thermodata.view.grid.dataset import Dataset, TestData
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 98
+RULES_VERSION = 99
 
 
 def _answer_key(model: Loaded, left: dict[str, float] | None = None) -> str:

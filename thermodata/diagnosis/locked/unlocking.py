@@ -98,7 +98,9 @@ def _judgement_unlocked(
         added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
         if added is not None:
             added = replace(added, white=foretold.white)
-        return Looked(foretold, added, found.measure.said, unit, spoilt(fits, some, place, found.measure.floor))
+        return Looked(
+            foretold, added, found.measure.said, unit, spoilt(fits, some, place, found.measure.floor_of_samples)
+        )
 
     return kept_where_they_hold(
         judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit
@@ -144,4 +146,4 @@ def _turned_tests(
         claimed = fits.of([j.scored.candidate for j in asked])
     except ThermodataError:  # no open test has all of their channels
         return {}
-    return turned_locked(claimed, locked, found.measure.floor)
+    return turned_locked(claimed, locked, found.measure.floor_of_samples)

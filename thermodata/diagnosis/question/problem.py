@@ -73,7 +73,8 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """All tests of one response. step_s: of the compressed samples. noise: short-term noise of the response.
+    """All tests of one response. step_s: of the compressed samples, each the mean of so many of the grid (averaged).
+    noise: short-term noise of the response on the grid.
     kept: what stays the same as long as samples and offsets do, by who made it: columns of candidates (`basis`),
     distances in time (`discrepancy`)."""
 
@@ -82,6 +83,7 @@ class Problem:
     step_s: float
     blocks: tuple[Block, ...]
     noise: float
+    averaged: int = 1
     kept: dict[str, dict[Any, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -238,7 +240,7 @@ def build_problem(explained: Explained, tests: Sequence[TestData], step_s: float
             filled = block.with_known(block.compress(base), block.compress(slack))
             blocks.append(replace(filled, response=y[:, 0], residual=y[:, 1]))
     noise = float(np.median(noises)) if noises else float("nan")
-    return Problem(explained.response, difference_unit(explained.unit), step_s * every, tuple(blocks), noise)
+    return Problem(explained.response, difference_unit(explained.unit), step_s * every, tuple(blocks), noise, every)
 
 
 def _empty_block(test: TestData, keep: Bool1D, every: int) -> Block:

@@ -201,10 +201,10 @@ def _select_and_judge(
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
     first = first_ranking(problem, asked)
     if first is None:
-        measure = Measure(spread, problem.noise, np.zeros(0), problem.in_parts)
+        measure = Measure(spread, problem.noise, np.zeros(0), problem.in_parts, problem.averaged)
         return None, judge(problem, None, measure, lambda scored: None), measure
     chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
-    measure = Measure(spread, problem.noise, chance, problem.in_parts)
+    measure = Measure(spread, problem.noise, chance, problem.in_parts, problem.averaged)
 
     def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement, bool]:
         good = measure.good(refined=False)
