@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from thermodata.report.words.causes import cause_of
+from thermodata.report.words.causes import cause_of, losses_in_words
 from thermodata.report.words.numbers import duration
 from thermodata.schema.flag import OVERRULED
 
@@ -36,7 +36,8 @@ def by_channel(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
 
 
 def by_cause(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
-    """One row for each cause of a flag: over how many tests and channels, where first, and in what words there."""
+    """One row for each cause of a flag: over how many tests and channels, where first, and in what words there; `rows`
+    are its own."""
     names = {str(row[k]) for row in rows for k in ("test", "source", "channel") if row[k]}
     sums: dict[tuple[Any, ...], Row] = {}
     members: dict[tuple[Any, ...], list[Mapping[str, Any]]] = {}
@@ -52,6 +53,25 @@ def by_cause(rows: Sequence[Mapping[str, Any]]) -> list[Row]:
             "events": len(some),
             "tests": len({r["test"] for r in some}),
             "channels": len({r["channel"] for r in some if r["channel"]}) or None,
+            "rows": some,
             "first": f"{first['test']}, {first['channel'] or first['source'] or 'all'}, {duration(first['from_s'])}",
         }
     return list(sums.values())
+
+
+def lost_in_words(losses: Sequence[Mapping[str, Any]]) -> list[str]:
+    """A line a cause of what could not be read or made (`flag_rows.lost`)."""
+    return losses_in_words(losses, {str(n) for x in losses for n in (*x["tests"], *x["sources"])})
+
+
+def faults_in_words(faults: Sequence[Mapping[str, Any]]) -> list[str]:
+    """'step in c/day1 at 2.9 h, dZ by +25 (baseline 1a2b3c)': a line a fault that `diagnose` told (`faults_told`), with
+    the models beside which it did."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for row in faults:
+        place = f"{row['campaign']}/{row['test']}" if row["test"] else f"all tests of {row['campaign']}"
+        at = "" if row["at_s"] is None else f" at {duration(row['at_s'])}"
+        size = "" if row["at_s"] is None or row["size_um"] is None else f", {row['response']} by {row['size_um']:+.3g}"
+        model = f"{row['name']} {row['model'][:6]}{', stale' if row['stale'] else ''}"
+        found.setdefault((row["kind"], place, at), [size]).append(model)
+    return [f"{kind} in {place}{at}{size} ({'; '.join(of)})" for (kind, place, at), (size, *of) in found.items()]
