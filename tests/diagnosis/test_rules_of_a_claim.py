@@ -306,7 +306,8 @@ def test_a_large_noise_is_that_of_the_means_that_are_compared() -> None:
     """0.7 um a minute are 0.4 um in means of 3 min: 1.17 um of left-out tests are more than noise, as locked samples
     they are not. What is small anyway covers the slow noise, which no mean lessens."""
     loud = Measure(2.5, 0.7, np.zeros(0), averaged=3)
-    assert loud.noises == loud.floor == pytest.approx(1.4 / np.sqrt(3)) and loud.floor_of_samples == pytest.approx(1.4)
+    assert loud.noises == loud.floor == pytest.approx(1.4 / np.sqrt(3))
+    assert loud.floor_of_samples == pytest.approx(1.4)
     quiet, alone = (Measure(5.1, 0.1, np.zeros(0), averaged=n) for n in (9, 1))
     assert quiet.noises == alone.noises == pytest.approx(0.5)
     strong = Measure(8.0, 0.7, np.zeros(0), averaged=3)

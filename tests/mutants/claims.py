@@ -338,7 +338,9 @@ MUTANTS = [
     ),
     diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
     diagnosis("measure.py", " / math.sqrt(averaged)", "", "means are held against the noise of samples"),
-    diagnosis("measure.py", "min(self.floor_of_samples", "min(self.floor", "samples are held against the noise of means"),
+    diagnosis(
+        "measure.py", "min(self.floor_of_samples", "min(self.floor", "samples are held against the noise of means"
+    ),
     diagnosis("problem.py", "tuple(blocks), noise, every)", "tuple(blocks), noise)", "means pass for samples"),
     diagnosis("judge.py", "left > measure.noises and any(is_plain", "any(is_plain", "noise is plain"),
     diagnosis("rules_together.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),

@@ -29,7 +29,8 @@ def pages_of(store: Store) -> dict[str, str]:
         campaign, test = con.execute("select campaign, test from test where role <> 'locked' limit 1").fetchall()[0]
         channel = con.execute("select channel from channel where test = ? limit 1", [test]).fetchall()[0][0]
     at = f"campaign={quote(campaign)}&test={quote(test)}"
-    pages = {"tests": "/", "test": f"/test?{at}", "trace": f"/trace?{at}&channel={quote(channel)}&at=3600"}
+    pages = {"tests": "/", "quality": "/quality"}
+    pages |= {"test": f"/test?{at}", "trace": f"/trace?{at}&channel={quote(channel)}&at=3600"}
     if models := model_rows(store):
         pages |= {"missing": "/missing", "compare": "/compare", "report": "/report"}
         if models[0].parent:

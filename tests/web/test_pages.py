@@ -18,7 +18,13 @@ from thermodata.web.render import ends, environment
 from .client import Client
 from .conftest import client_of
 
-PAGES = ["/", "/test?campaign=small&test=heat1", "/test?campaign=small&test=day2", "/trace?campaign=small&test=heat1"]
+PAGES = [
+    "/",
+    "/quality",
+    "/test?campaign=small&test=heat1",
+    "/test?campaign=small&test=day2",
+    "/trace?campaign=small&test=heat1",
+]
 
 
 @pytest.mark.parametrize("url", PAGES)
@@ -57,7 +63,7 @@ def test_a_search_that_finds_nothing_says_what_to_do(reader: Client) -> None:
     assert 'href="/"' in text
 
 
-@pytest.mark.parametrize("url", ["/", "/compare", "/missing", "/sql", "/report", "/test?campaign=a&test=b"])
+@pytest.mark.parametrize("url", ["/", "/quality", "/compare", "/missing", "/sql", "/report", "/test?campaign=a&test=b"])
 def test_a_folder_without_a_store_says_what_to_do(tmp_path: Path, url: str) -> None:
     text = client_of(tmp_path)[0].get(url).text
     assert "There is no store yet" in text

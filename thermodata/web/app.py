@@ -20,7 +20,8 @@ from thermodata.web.later import later
 from thermodata.web.render import desk_of, page
 from thermodata.web.work import Work
 
-_OF_A_STORE = ("/", "/test", "/compare", "/add", "/confirm", "/sql", "/report", "/missing", "/trace")  # pages, whole
+# pages, whole
+_OF_A_STORE = ("/", "/test", "/quality", "/compare", "/add", "/confirm", "/sql", "/report", "/missing", "/trace")
 
 
 def application(desk: Desk) -> Starlette:
@@ -40,6 +41,7 @@ def application(desk: Desk) -> Starlette:
             Route("/test", later("test.show"), methods=["GET"]),
             Route("/test/data", later("test.data"), methods=["GET"]),
             Route("/test/range", later("test.stretch"), methods=["GET"]),
+            Route("/quality", later("quality.show"), methods=["GET"]),
             Route("/compare", later("compare.show"), methods=["GET"]),
             Route("/add", later("adding.show"), methods=["GET"]),
             Route("/confirm", later("confirming.show"), methods=["GET"]),

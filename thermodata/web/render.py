@@ -28,6 +28,7 @@ from thermodata.web.desk import Desk
 PAGES = (
     ("/start", "Start"),
     ("/", "Tests"),
+    ("/quality", "Quality"),
     ("/compare", "Compare"),
     ("/missing", "What is missing"),
     ("/sql", "SQL"),

@@ -43,7 +43,7 @@ class Measure:
 
     @property
     def floor(self) -> float:
-        """An error of left-out tests that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        """An error of left-out tests that is left alone: noise, and what lags leave of a distributed machine."""
         return self._floor(self.averaged)
 
     @property

@@ -159,23 +159,8 @@ def _shown(test: TestQuality, key: str) -> dict[str, Any]:
         "losses": [_counted(c) for c in by_cause(test.losses, str)],
         "worst": [f"{t.name} {share(t.flagged, t.samples)}" for t in worst],
         "total": len(test.events),
-        "events": [_alike(a) for a in folded(map(_flagged, test.events))],
+        "events": [_alike(a) for a in folded(map(Flagged.of_row, test.events))],
     }
-
-
-def _flagged(event: Mapping[str, Any]) -> Flagged:
-    """An event that is of the whole test begins and ends nowhere: NaN."""
-    from_s, to_s = event["from_s"], event["to_s"]
-    start = float("nan") if from_s is None else from_s
-    return Flagged(
-        event["channel"] or "",
-        event["source"] or "",
-        event["flag"],
-        start,
-        start if to_s is None else to_s,
-        event["n"] or 0,
-        event["detail"] or "",
-    )
 
 
 def _alike(one: Alike) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ _MOST = 2_000
 
 @dataclass(frozen=True, slots=True)
 class Flagged:
-    """A stretch of a channel with one flag. n: samples. channel: '' where all channels of a source have it."""
+    """A stretch of a channel with one flag [s]. n: samples. channel: '' where all channels of a source have it."""
 
     channel: str
     source: str
@@ -32,6 +33,15 @@ class Flagged:
         """Whether it stands for single samples between the measuring phases, with anything between the first and the
         last of them: no stretch to draw."""
         return self.detail == ONLY
+
+    @classmethod
+    def of_row(cls, row: Mapping[str, Any]) -> Flagged:
+        """A row of `quality_event`. One that is of the whole test begins and ends nowhere: NaN."""
+        start = float("nan") if row["from_s"] is None else row["from_s"]
+        end = start if row["to_s"] is None else row["to_s"]
+        return cls(
+            row["channel"] or "", row["source"] or "", row["flag"], start, end, row["n"] or 0, row["detail"] or ""
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,18 +79,7 @@ def about_test(store: Store, campaign: str, test: str) -> About:
     return About(
         row,
         {p["phase"]: (p["from_s"], p["to_s"]) for p in phases},
-        tuple(
-            Flagged(
-                e["channel"] or "",
-                e["source"] or "",
-                e["flag"],
-                e["from_s"],
-                e["to_s"] if e["to_s"] is not None else e["from_s"],
-                e["n"] or 0,
-                e["detail"] or "",
-            )
-            for e in events
-        ),
+        tuple(map(Flagged.of_row, events)),
         locked_looks(store, campaign, test),
         tuple(open_in(store, [campaign]).get((campaign, test), ())),
         machines[0]["machine"] if machines else None,
