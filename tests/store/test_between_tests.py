@@ -354,6 +354,8 @@ def test_what_measuring_excludes_is_not_lost_to_a_flag_too(
     path.write_text(path.read_text(encoding="utf-8").replace(TESTS, "tests:\n" + measured), encoding="utf-8")
     ingest(store, path)
     assert [e[2] for e in events(store, "held") if e[0] == "day2"] == [N - first], "one stretch, behind it too"
-    fitted = fit_model(Model.model_validate(yaml.safe_load(MODEL)), load_dataset(store, ["days"], 60.0))
+    data = load_dataset(store, ["days"], 60.0)
+    fitted = fit_model(Model.model_validate(yaml.safe_load(MODEL)), data)
     told = [c.advice for c in fitted.checks() if c.name == "lost_to_flags:days/day2"]
+    assert data.test("days", "day2").channels["dZ"].faulty == ("held" if said else None)
     assert [text.partition(":")[0] for text in told] == ([said] if said else [])

@@ -59,7 +59,7 @@ class Flagged:
         """Which flag judges the sensor faulty; None where none does."""
         flags = self._counting()
         failed = [f for f in _FAILED if f in flags]
-        if not failed and self.lost > FAULTY_SHARE:
+        if not failed and self.lost_while_measuring > FAULTY_SHARE:
             failed = sorted(flags, key=lambda f: -flags[f])[:1]
         return failed[0].replace("_", " ") if failed else None
 
