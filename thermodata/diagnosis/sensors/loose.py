@@ -14,26 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis.clocks.beside_air import beside_air
-from thermodata.diagnosis.clocks.logs_compared import is_around
-from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.sensors.cooled import cooled_otherwise
-from thermodata.diagnosis.steps.commanded import is_command
-from thermodata.effect.lag import lag
+from thermodata.diagnosis.sensors.temperature_sums import LEAST_SIZE, RIDGE, TemperatureSums, machines
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.words.places import is_fluid
 from thermodata.schema.words.sentences import counted
 from thermodata.view.grid.dataset import Dataset, TestData
 
-EVERY_S = 300.0  # means over so much: bodies are slower
-LAGS_S = (600.0, 2400.0, 9600.0)  # of commands: of a bearing, of a housing, of a bed
-POWERS = {"rotational_speed": (1, 2)}  # what a bearing loses goes with its speed by a power between
-AIR_LAG_S = 3600.0
-MEASURED = 0.5  # of a test's samples at least
-RIDGE = 0.01  # of a column's squares
-LEAST_SIZE = 1e-9  # of a column, in its unit: below is what rounding leaves of one that stands
 FACTORS = (0.75, 0.65, 0.55, 0.45, 0.35, 0.25, 0.15)
 TELLS = 0.25  # of what is foretold in the test in which it is most: less of it says nothing of a factor,
 LEAST_K = 0.5  # nor does less than this, anywhere
@@ -81,12 +70,8 @@ class Fall:
 
 def loose_sensors(data: Dataset, response: str) -> list[Artefact]:
     """Of each campaign and machine by itself. Of the tests temperatures and commands are read, never the response."""
-    rank = {key: i for i, key in enumerate(in_order(data.tests))}
-    machines: dict[tuple[str, str], list[TestData]] = {}
-    for test in sorted(data.tests, key=lambda t: rank[t.key]):
-        machines.setdefault((test.campaign, test.machine), []).append(test)
     with threadpool_limits(1):
-        return [as_artefact(fall) for tests in machines.values() for fall in falls(data, tests, response)]
+        return [as_artefact(fall) for tests in machines(data) for fall in falls(data, tests, response)]
 
 
 def as_artefact(fall: Fall) -> Artefact:
@@ -112,13 +97,15 @@ def falls(data: Dataset, tests: Sequence[TestData], response: str = "") -> list[
     """tests: of one machine, in order. Nothing where several fall: one sensor comes loose, and a machine changes."""
     if len(tests) < 2 * LEAST_TELLING:
         return []
-    sums = _Sums(data, tests, response)
-    plain = [f for f in sums.falls() if f.plain]
+    sums = TemperatureSums(data, tests, response)
+    # what stands in a fluid came off no body: how much of it there is, and whether it flows, is another factor
+    asked = {n for n in sums.names if not is_fluid(data.channels[n].at)}
+    plain = [f for f in _each_fall(sums, asked) if f.plain]
     if not plain:
         return []
     fall = max(plain, key=lambda f: f.drop)
     # what a loose sensor foretells of the others is wrong
-    others = [f for f in sums.falls(without=[fall.name]) if f.name != fall.name]
+    others = [f for f in _each_fall(sums, asked, without=[fall.name]) if f.name != fall.name]
     changed = any(f.plain or between_the_same_tests(f, fall) for f in others) or conditions_changed(fall)
     return [] if changed or cooled_otherwise(fall.before, fall.after) else [fall]
 
@@ -138,78 +125,50 @@ def conditions_changed(fall: Fall) -> bool:
     return any(len(b) == len(a) == 1 and a != b for b, a in values)
 
 
-class _Sums:
-    """Sums of squares and products of all temperatures, and of what foretells them, in each test.
+def _each_fall(sums: TemperatureSums, asked: Collection[str], without: Collection[str] = ()) -> Iterator[Fall]:
+    """Of each temperature where it falls most plainly. asked: which. without: temperatures that foretell no other."""
+    for j, name in enumerate(sums.names):
+        if name not in asked:
+            continue
+        used = np.flatnonzero(sums.seen[:, j])
+        if len(used) < 2 * LEAST_TELLING:
+            continue
+        by = [i for i, n in enumerate(sums.names) if i != j and n not in without and sums.seen[used, i].all()]
+        columns = np.array([*range(sums.commands), *(sums.commands + i for i in by)], dtype=np.int64)
+        fall = _fall(sums, name, used, columns, sums.commands + j)
+        if fall is not None:
+            yield fall
 
-    gram: shape (tests, k, k), commands first. seen: shape (tests, temperatures). rows: shape (tests,).
-    """
 
-    def __init__(self, data: Dataset, tests: Sequence[TestData], response: str) -> None:
-        every = sorted(
-            n
-            for n, c in data.channels.items()
-            if c.quantity == "temperature" and c.source and c.faulty is None and n != response
-        )
-        air = [n for n in every if is_around(data.channels[n])]
-        drives = [
-            (n, power)
-            for n, c in sorted(data.channels.items())
-            if is_command(c)
-            for power in POWERS.get(c.quantity, (1,))
-        ]
-        self.tests = tests
-        self.names = [n for n in every if n not in air]
-        # what stands in a fluid came off no body: how much of it there is, and whether it flows, is another factor
-        self.asked = {n for n in self.names if not is_fluid(data.channels[n].at)}
-        self.commands = len(drives) * len(LAGS_S)
-        parts = [_columns(t, drives, self.names, air, data.step_s) for t in tests]
-        self.gram = np.stack([x.T @ x for x, _ in parts])
-        self.seen = np.stack([seen for _, seen in parts])
-        self.rows = np.array([len(x) for x, _ in parts])
-
-    def falls(self, without: Collection[str] = ()) -> Iterator[Fall]:
-        """Of each temperature where it falls most plainly. without: temperatures that foretell no other."""
-        for j, name in enumerate(self.names):
-            if name not in self.asked:
-                continue
-            used = np.flatnonzero(self.seen[:, j])
-            if len(used) < 2 * LEAST_TELLING:
-                continue
-            by = [i for i, n in enumerate(self.names) if i != j and n not in without and self.seen[used, i].all()]
-            columns = np.array([*range(self.commands), *(self.commands + i for i in by)], dtype=np.int64)
-            fall = self._fall(name, used, columns, self.commands + j)
-            if fall is not None:
-                yield fall
-
-    def _fall(self, name: str, used: Int1D, columns: Int1D, own: int) -> Fall | None:
-        gram = self.gram[np.ix_(used, columns, columns)]
-        cross, energy = self.gram[np.ix_(used, columns, np.array([own]))][..., 0], self.gram[used, own, own]
-        size = np.sqrt(np.einsum("tkk->k", gram))
-        moves = size > LEAST_SIZE
-        if not moves.any() or not energy.sum() > 0:
-            return None
-        size = size[moves]
-        gram, cross = gram[:, moves][:, :, moves] / size[:, None] / size, cross[:, moves] / size
-        at, factor = _best_break(gram, cross)
-        plain, *_ = left_out(gram, cross, energy, np.ones(len(used)))
-        scale = np.where(np.arange(len(used)) < at, 1.0, factor)
-        left, along, power = left_out(gram, cross, energy, scale)
-        foretold = np.sqrt(power / self.rows[used])
-        tells = telling(foretold)
-        sides = [np.flatnonzero(tells[:at]), at + np.flatnonzero(tells[at:])]
-        if not all(len(side) for side in sides):
-            return None
-        answers = along / np.maximum(power, 1e-300)
-        (lowest, before), (highest, after) = (
-            (edge(answers[side]), float(along[side].sum() / power[side].sum()))
-            for edge, side in zip((np.min, np.max), sides, strict=True)
-        )
-        before_, after_ = (tuple(self.tests[used[i]] for i in side) for side in sides)
-        parted = float(highest / lowest) if lowest > 0 else np.inf
-        ratio = after / before if before > 0 else np.inf
-        drop = 1 - left / max(plain, 1e-300)
-        between = int(sides[1][0] - sides[0][-1]) - 1
-        return Fall(name, before_, after_, ratio, drop, left / float(energy.sum()), parted, between)
+def _fall(sums: TemperatureSums, name: str, used: Int1D, columns: Int1D, own: int) -> Fall | None:
+    gram = sums.gram[np.ix_(used, columns, columns)]
+    cross, energy = sums.gram[np.ix_(used, columns, np.array([own]))][..., 0], sums.gram[used, own, own]
+    size = np.sqrt(np.einsum("tkk->k", gram))
+    moves = size > LEAST_SIZE
+    if not moves.any() or not energy.sum() > 0:
+        return None
+    size = size[moves]
+    gram, cross = gram[:, moves][:, :, moves] / size[:, None] / size, cross[:, moves] / size
+    at, factor = _best_break(gram, cross)
+    plain, *_ = left_out(gram, cross, energy, np.ones(len(used)))
+    scale = np.where(np.arange(len(used)) < at, 1.0, factor)
+    left, along, power = left_out(gram, cross, energy, scale)
+    foretold = np.sqrt(power / sums.rows[used])
+    tells = telling(foretold)
+    sides = [np.flatnonzero(tells[:at]), at + np.flatnonzero(tells[at:])]
+    if not all(len(side) for side in sides):
+        return None
+    answers = along / np.maximum(power, 1e-300)
+    (lowest, before), (highest, after) = (
+        (edge(answers[side]), float(along[side].sum() / power[side].sum()))
+        for edge, side in zip((np.min, np.max), sides, strict=True)
+    )
+    before_, after_ = (tuple(sums.tests[used[i]] for i in side) for side in sides)
+    parted = float(highest / lowest) if lowest > 0 else np.inf
+    ratio = after / before if before > 0 else np.inf
+    drop = 1 - left / max(plain, 1e-300)
+    between = int(sides[1][0] - sides[0][-1]) - 1
+    return Fall(name, before_, after_, ratio, drop, left / float(energy.sum()), parted, between)
 
 
 def telling(foretold: Float1D) -> Bool1D:
@@ -240,47 +199,3 @@ def left_out(gram: FloatND, cross: Float2D, energy: Float1D, scale: Float1D) -> 
     along = np.einsum("tk,tk->t", gains, cross)
     power = np.maximum(np.einsum("tk,tkl,tl->t", gains, gram, gains), 0.0)
     return float(np.sum(energy - 2 * scale * along + scale**2 * power)), along, power
-
-
-def _columns(
-    test: TestData, drives: Sequence[tuple[str, int]], names: Sequence[str], air: Sequence[str], step_s: float
-) -> tuple[Float2D, Bool1D]:
-    """(commands in their lags and temperatures, beside what air gives: shape (n, k); which of `names` was measured).
-    drives: commands, and the power of each.
-    """
-    every = max(1, round(EVERY_S / step_s))
-    commands = [lag(_command_held(test, n) ** power, tau, step_s) for n, power in drives for tau in LAGS_S]
-    courses = [_temperature_evened(test, n) for n in names]
-    around = [x for n in air if (x := _temperature_evened(test, n)) is not None]
-    nothing = np.zeros(len(test.t_s))
-    known = [x for a in around for x in (a, lag(a - a[0], AIR_LAG_S, step_s))]
-    columns = _row_means([*commands, *(nothing if x is None else x for x in courses)], every, len(test.t_s))
-    (own,) = beside_air([columns], _row_means(known, every, len(test.t_s)))
-    return own, np.array([x is not None for x in courses])
-
-
-def _command_held(test: TestData, name: str) -> Float1D:
-    """The size of a command, each value held until the next; 0 where it was not logged."""
-    values = test.values.get(name)
-    known = np.flatnonzero(np.isfinite(values)) if values is not None else np.empty(0, np.int64)
-    if values is None or not len(known):
-        return np.zeros(len(test.t_s))
-    last = np.searchsorted(known, np.arange(len(values)), side="right") - 1
-    return np.asarray(np.abs(values[known[np.clip(last, 0, None)]]))
-
-
-def _temperature_evened(test: TestData, name: str) -> Float1D | None:
-    """Drawn straight over holes; None where too little was measured, or the sensor is judged faulty."""
-    info = test.channels.get(name)
-    if name not in test.values or (info is not None and info.faulty is not None):
-        return None
-    seen = np.flatnonzero(np.isfinite(test.values[name]) & test.valid[name])
-    if len(seen) < max(2, MEASURED * len(test.t_s)):
-        return None
-    return np.asarray(np.interp(test.t_s, test.t_s[seen], test.values[name][seen]))
-
-
-def _row_means(columns: Sequence[Float1D], every: int, rows: int) -> Float2D:
-    whole = rows // every
-    table = np.column_stack(columns) if columns else np.zeros((rows, 0))
-    return np.asarray(table[: whole * every].reshape(whole, every, table.shape[1]).mean(axis=1))
