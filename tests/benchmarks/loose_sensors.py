@@ -20,6 +20,7 @@ from threadpoolctl import threadpool_limits
 from thermodata.diagnosis.clocks.logs_compared import is_around
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.sensors import loose
+from thermodata.diagnosis.sensors.temperature_sums import TemperatureSums
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.grid.dataset import Dataset, TestData
@@ -62,7 +63,8 @@ def foretold(data: Dataset) -> dict[str, list[TestData]]:
     """temperature -> the tests, in their order, in which others foretell it; of those with four such tests and a share
     left that lets a factor be told."""
     tests = in_ordered(data)
-    found = {f.name: [*f.before, *f.after] for f in loose._Sums(data, tests, "").falls() if f.left <= loose.LEFT}
+    sums = TemperatureSums(data, tests, "")
+    found = {f.name: [*f.before, *f.after] for f in loose._each_fall(sums, sums.names) if f.left <= loose.LEFT}
     return {name: some for name, some in found.items() if len(some) >= 4}
 
 

@@ -13,6 +13,7 @@ from thermodata.diagnosis.clocks.ends_of_logs import Ends
 from thermodata.diagnosis.locked.confirm import Fits
 from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.diagnosis.question.responses import response_index
+from thermodata.diagnosis.sensors.exchanged import exchanged_sensors
 from thermodata.diagnosis.sensors.loose import loose_sensors
 from thermodata.diagnosis.sound import Sound, beside_slips, sound
 from thermodata.diagnosis.verdict.inquiry import Given, Inquiry, Prepared
@@ -109,6 +110,7 @@ def case_of(
             *asked_of.faults,
             *as_artefacts(same, response.name),
             *loose_sensors(asked_of.data, response.name),
+            *exchanged_sensors(asked_of.data, response.name),
         ),
         library,
         seed,

@@ -40,7 +40,7 @@ Named = Annotated[str | None, BeforeValidator(lambda name: name or None)]
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
-    kind: step, repeated_step, clock_offset, sign, gain, parameters, sensor, sensor_gain or copy
+    kind: step, repeated_step, clock_offset, sign, gain, parameters, sensor, sensor_gain, exchanged or copy
     campaign: id
     test: id; null where all tests share it
     at_s: from the test's start [s]
