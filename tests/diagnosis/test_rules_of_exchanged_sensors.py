@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.sensors.exchanged import exchanged_sensors, exchanges
+from thermodata.diagnosis.sensors.exchanged import exchanged_sensors, exchanges, is_exchanged
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.report.verdict.log_faults import log_faults
@@ -90,6 +90,23 @@ def test_other_tests_have_to_tell_them_apart(tests: int, found: int) -> None:
     assert len(exchanges(exchanged(few, [1]), exchanged(few, [1]).tests)) <= found
     if found:
         assert [e.test.test for e in exchanges(exchanged(few, [1]), exchanged(few, [1]).tests)] == ["t1"]
+
+
+@pytest.mark.parametrize(
+    ("straight", "turned", "energy", "holds"),
+    [
+        ((400.0, 400.0), (40.0, 40.0), (500.0, 500.0), True),
+        ((400.0, 400.0), (90.0, 90.0), (500.0, 500.0), False),  # it falls by less than 80 %
+        ((700.0, 100.0), (20.0, 60.0), (900.0, 200.0), False),  # one alone is better: the other failed, say
+        ((400.0, 400.0), (60.0, 60.0), (150.0, 150.0), False),  # of what is left nobody foretells enough
+        ((20.0, 20.0), (2.0, 2.0), (30.0, 30.0), False),  # less than half a kelvin is left of both
+    ],
+)
+def test_how_plain_it_has_to_be(
+    straight: tuple[float, float], turned: tuple[float, float], energy: tuple[float, float], holds: bool
+) -> None:
+    """Squared errors of two in 100 rows."""
+    assert is_exchanged(np.array(straight), np.array(turned), np.array(energy), 100) == holds
 
 
 def test_each_machine_by_itself() -> None:

@@ -122,18 +122,17 @@ def _turned(gram: FloatND, cross: FloatND, energy: Float2D, rows: Int1D) -> tupl
         plain = [
             t
             for t in range(len(gram))
-            if t not in found and _is_exchanged(straight[t], turned[t], energy[t], int(rows[t]))
+            if t not in found and is_exchanged(straight[t], turned[t], energy[t], int(rows[t]))
         ]
         if not plain or telling < max(LEAST_TELLING, len(found) + 2):
             break
         best = min(plain, key=lambda t: float(turned[t].sum() / straight[t].sum()))
         found[best] = float(straight[best].sum()), float(turned[best].sum())
         cross[best], energy[best] = cross[best][:, ::-1].copy(), energy[best][::-1].copy()
-    enough = telling >= max(LEAST_TELLING, len(found) + 1)
-    return (found, telling) if enough else ({}, 0)
+    return found, telling
 
 
-def _is_exchanged(straight: Float1D, turned: Float1D, energy: Float1D, rows: int) -> bool:
+def is_exchanged(straight: Float1D, turned: Float1D, energy: Float1D, rows: int) -> bool:
     """Of one test. straight, turned: squared error of what each foretelling leaves, as named and of the other one;
     energy: of each as it is named; shape (2,) each."""
     falls = turned.sum() <= (1 - DROP) * straight.sum() and bool((turned <= (1 - EACH) * straight).all())
