@@ -58,3 +58,13 @@ def test_more_than_three_are_named_only() -> None:
 
 def test_nothing_is_said_where_all_are_determined() -> None:
     assert "determine" not in said()
+
+
+def test_what_is_missing_is_added_first() -> None:
+    """A bending that nobody modelled blurs the air: the advice below 'missing: ...' is not to take the air out."""
+    text = verdict_sentence(diagnosis(model="0123456789", verdict="effect", undetermined=[one()]))
+    assert (
+        "which may be for what is missing: add that first, and where it stays so, a test in which T_nut moves and the "
+        "rest does not"
+    ) in text
+    assert "remove" not in text

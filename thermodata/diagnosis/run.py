@@ -147,9 +147,11 @@ def _with_unasked(found: Diagnosis, model: Loaded) -> Diagnosis:
 
 
 def _with_undetermined(found: Diagnosis, model: Loaded, known: Mapping[str, Parameter]) -> Diagnosis:
-    """With the effects of the model whose gain its fit does not determine. known: parameters of the fit."""
+    """With the effects of the model whose gain its fit does not determine. known: parameters of the fit. What is
+    missing may be what blurs them: where it is named, nobody asks what the model leaves without them."""
     of = next(r for r in model.fitted.responses if r.name == found.response)
-    return found.model_copy(update={"undetermined": undetermined(model.fitted, of, model.data, known)})
+    weighed = found.verdict != "effect"
+    return found.model_copy(update={"undetermined": undetermined(model.fitted, of, model.data, known, weighed)})
 
 
 def confirm_choice(store: Store, ref: str, candidate: str | int, response: str | None = None) -> tuple[Confirmed, bool]:

@@ -59,10 +59,12 @@ def confirm(
     """
     spec = on_all_open(spec, tests, locked)
     base = fit_model(spec, data, uncertainty=False) if base is None else base
-    more = fit_model(extended(spec, candidates), data)
+    terms = _terms_by_candidate(with_them := extended(spec, candidates), base, candidates)
+    # of the other effects nothing is told here
+    more = fit_model(with_them, data, profiled=[name for some in terms.values() for name in some])
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
-    found, terms = more.parameters(), _terms_by_candidate(more, base, candidates)
+    found = more.parameters()
     own = None if stands is None else _told_apart(rmse(stands, usable), rmse(ours, usable))
     does, most = _sizes_of_added(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable)
     return Confirmation(
@@ -193,11 +195,11 @@ def _rms_changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[T
 
 
 def _terms_by_candidate(
-    more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
+    more: Model, base: FittedModel, candidates: Sequence[CandidateEffect]
 ) -> dict[str, tuple[str, ...]]:
     """The effects that each candidate changed, or that were added in its order, by its id."""
     had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
-    added = iter(name for name in term_ids(more.spec.effects) if name not in had)
+    added = iter(name for name in term_ids(more.effects) if name not in had)
     return {c.id: c.becomes or (next(added),) for c in candidates}
 
 

@@ -24,14 +24,16 @@ FACTORS = (0.02, 50.0)  # of one group's gains to another's
 @dataclass(frozen=True, slots=True)
 class FitSettings:
     """How a response is fitted. wanted: the phases whose samples count, None for all. uncertainty: whether intervals
-    are asked for; profiled: and looked at by their profiles. near: the terms as they were found on nearly the same
-    data, where the search starts without a look over the whole range. loose: see `search`."""
+    are asked for; profiled: and looked at by their profiles, of the terms of these ids (`of`), None for all. near: the
+    terms as they were found on nearly the same data, where the search starts without a look over the whole range.
+    loose: see `search`."""
 
     wanted: tuple[str, ...] | None
     uncertainty: bool
     near: Mapping[int, FittedTerm] | None = None
     loose: bool = False
     profiled: bool = True
+    of: frozenset[str] | None = None
 
 
 def fit_jointly(
@@ -66,7 +68,11 @@ def fit_jointly(
     x = fastest_first(problem, x)
     gains = problem.gains(problem.matrix(x))
     none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
-    spread, logs, cover = spreads(problem, x, gains, look if how.profiled else None) if how.uncertainty else none
+    if how.uncertainty:
+        asked = None if how.of is None else [s for s, slot in enumerate(design.slots) if terms[slot.term].id in how.of]
+        spread, logs, cover = spreads(problem, x, gains, look if how.profiled else None, asked)
+    else:
+        spread, logs, cover = none
     together = None if cover is None else _owners_together(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -29,8 +29,17 @@ from thermodata.view.grid.dataset import Dataset, TestData
 _SHOWN = 8  # tests, each with what it lacks
 
 
-def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+def fit_model(
+    spec: Model,
+    data: Dataset,
+    *,
+    base: Path | None = None,
+    uncertainty: bool = True,
+    profiled: Collection[str] | None = None,
+) -> FittedModel:
     """Fit every response of a model. base: the folder that `file` of an effect is relative to (default: here).
+    profiled: ids of the effects whose intervals are looked at by their profiles, which costs most of a fit (default:
+    all); those of the others are as wide up as down.
 
     Tests that lack the response or a driver are skipped and named in `.skipped`. Raises SpecError where the spec does
     not fit the data, UsageError where no calibration test is left. It runs on one core: its matrices are so small that
@@ -40,10 +49,12 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):
-        return _fit_model(spec, data, base, uncertainty=uncertainty)
+        return _fit_model(spec, data, base, uncertainty, None if profiled is None else frozenset(profiled))
 
 
-def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bool) -> FittedModel:
+def _fit_model(
+    spec: Model, data: Dataset, base: Path | None, uncertainty: bool, profiled: frozenset[str] | None
+) -> FittedModel:
     inside = _fitter_of_models_inside(data, base)
     roles, bound = resolve(spec, data, base, inside)
     wanted = None if spec.phases is None else tuple(spec.phases)
@@ -75,7 +86,7 @@ def _fit_model(spec: Model, data: Dataset, base: Path | None, *, uncertainty: bo
             fitted = [replace(r, **own) for r, own in zip(fitted, said, strict=True)]
     else:
         fitted = [
-            fit_response(response, usable, wanted, data, uncertainty=uncertainty)
+            fit_response(response, usable, wanted, data, uncertainty=uncertainty, profiled=profiled)
             for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
         ]
     responses = tuple(
@@ -137,10 +148,11 @@ def fit_response(
     data: Dataset | None = None,
     *,
     uncertainty: bool = True,
+    profiled: frozenset[str] | None = None,
 ) -> FittedResponse:
     """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
-    find their own tests (default: among `tests`)."""
-    how, tried = FitSettings(wanted, uncertainty), list[Tried]()
+    find their own tests (default: among `tests`). profiled: as of `fit_model`."""
+    how, tried = FitSettings(wanted, uncertainty, of=profiled), list[Tried]()
     held: dict[int, FittedTerm] = {}
     stages = stages_of(bound, tests, data)
     for stage in stages:

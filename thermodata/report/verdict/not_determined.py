@@ -19,12 +19,13 @@ AS_MUCH = 0.02  # of an error on left-out tests: a change by less is none
 def not_determined(found: Diagnosis) -> list[str]:
     """'the tests that were fitted do not determine screw: its gain is 3.20 um/K (95 %: -0.100 to 6.50), ...', a clause
     for each of the first few."""
-    told = [_told(one, found.model) for one in found.undetermined[:MOST]]
+    missing = found.verdict == "effect"
+    told = [_told(one, found.model, missing) for one in found.undetermined[:MOST]]
     more = [one.effect for one in found.undetermined[MOST:]]
     return [*told, *([f"nor do they determine {listed(more)}"] if more else [])]
 
 
-def _told(one: Undetermined, model: str) -> str:
+def _told(one: Undetermined, model: str, missing: bool) -> str:
     gains = listed([f"its {name.rpartition('.')[2]} is {_with_interval(p)}" for name, p in one.gains.items()])
     there = ""
     if one.elsewhere is not None:
@@ -34,7 +35,12 @@ def _told(one: Undetermined, model: str) -> str:
         )
     drivers = listed(one.drivers)
     test = f"a test in which {drivers} {'moves' if len(one.drivers) == 1 else 'move'} and the rest does not"
-    return f"the tests that were fitted do not determine {one.effect}: {gains}{there}, {_without(one, model, test)}"
+    do = (
+        f"which may be for what is missing: add that first, and where it stays so, {test}"
+        if missing
+        else _without(one, model, test)
+    )
+    return f"the tests that were fitted do not determine {one.effect}: {gains}{there}, {do}"
 
 
 def _with_interval(p: Parameter) -> str:

@@ -26,14 +26,16 @@ ELSEWHERE = 1.5  # times what it does in a fitted test: there its gain counts fo
 
 
 def undetermined(
-    fitted: FittedModel, of: FittedResponse, data: Dataset, known: Mapping[str, Parameter]
+    fitted: FittedModel, of: FittedResponse, data: Dataset, known: Mapping[str, Parameter], weighed: bool = True
 ) -> list[Undetermined]:
     """Of one response, the one that costs most on left-out tests first. known: parameters of the fit with intervals, by
-    the names that `FittedModel.parameters` gives."""
+    the names that `FittedModel.parameters` gives. weighed: whether it is asked what the model leaves without each,
+    which takes some dozen fits."""
     prefix = f"{of.name}/" if len(fitted.responses) > 1 else ""
     terms = [(t, gains) for t in of.terms if is_unsure(gains := _gains(t, prefix, known)) and _is_driven(t)]
     # what a model of one effect leaves without it is the response
-    errors = _left_out(fitted.spec, of, data, [t.id for t, _ in terms[:MOST]]) if len(of.terms) > 1 else {}
+    asked = [t.id for t, _ in terms[:MOST]] if weighed and len(of.terms) > 1 else []
+    errors = _left_out(fitted.spec, of, data, asked)
     found = [_told(t, gains, of, fitted.tests(data), data.tests, errors) for t, gains in terms]
     return sorted(found, key=lambda one: -_costs(one))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -45,10 +45,11 @@ class Cover:
 
 
 def spreads(
-    problem: Problem, x: Float1D, gains: Float1D, rough: Rough | None = None
+    problem: Problem, x: Float1D, gains: Float1D, rough: Rough | None = None, profiled: Collection[int] | None = None
 ) -> tuple[list[Spread], frozenset[str], Cover | None]:
     """One a slot, the names that are searched as logarithms, and all of them with their correlations (None where these
-    are not known). rough: makes the same problem on fewer samples, for profiles; None: without profiles."""
+    are not known). rough: makes the same problem on fewer samples, for profiles; None: without profiles.
+    profiled: the slots whose profiles are asked for; None: all, and each costs some fits."""
     by_slot = [Spread() for _ in problem.design.slots]
     logs = frozenset(f.param.name for f in problem.free if f.log)
     known = inside_bounds(problem, x)
@@ -63,6 +64,8 @@ def spreads(
     free = inside if len(known) == len(problem.free) else Estimate(problem, x, gains)
 
     def asked(k: int, of: Coordinate, half: float) -> bool:
+        if profiled is not None and set(of.slots).isdisjoint(profiled):
+            return False
         if isinstance(of, Searched):
             # at a bound the half width says nothing, and the profile has one side only
             return half < UNKNOWN or of.place not in known
