@@ -266,6 +266,14 @@ def test_where_all_refines_nothing_is_missing_and_at_the_floor_nothing_is_refine
     assert names(found.refinements) == (["mode"] if expected == "refine" else [])
 
 
+@pytest.mark.parametrize(("after", "expected"), [(0.8, "refine"), (1.1, "unknown")])
+def test_what_lessens_no_error_excuses_none(after: float, expected: str) -> None:
+    """An error of 1 is a third of the response: so much may be left where something refines the model, and less where
+    nothing does. What refines it without being of use to the tests left out is told all the same."""
+    found = verdict(scored("mode", after=after), refined=["mode"], floor=0.3)
+    assert (found.verdict, names(found.refinements)) == (expected, ["mode"])
+
+
 @pytest.mark.parametrize(
     ("changed", "asked"),
     [

@@ -338,6 +338,7 @@ MUTANTS = [
     diagnosis(
         "rules_together.py", "HALVES = 0.5", "HALVES = 0.9", "what helps a little contradicts that nothing is missing"
     ),
+    diagnosis("judge.py", "refined=rest < left", "refined=bool(kept)", "what lessens no error excuses one"),
     diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
     diagnosis("measure.py", " / math.sqrt(averaged)", "", "means are held against the noise of samples"),
     diagnosis(

@@ -77,7 +77,9 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
         return Judgement("none", (), (), judged, why, likely=_likely(own, ()))
     more_than_noise = left if left > measure.noises else 0.0
     if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
-        rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
+        rest = min([left, *(j.alone.error_of_all for j in kept)])
+        # what refines the model without lessening its error excuses none
+        limit = measure.good(refined=rest < left)
         if rest <= limit:
             enough = _why_no_cause_is_missing(rest, limit, problem.unit, measure)
             return Judgement("refine" if kept else "none", (), kept, judged, enough, likely=_likely(maybe, ()))
