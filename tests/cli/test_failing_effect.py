@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.failing import without_failing
-from thermodata.diagnosis.run import kept_diagnosis
+from thermodata.diagnosis.run import question
 from thermodata.effect import registry
 from thermodata.errors import EffectError
 from thermodata.plugin import Drivers, Effect, Float2D, Gain, Need
@@ -121,9 +121,9 @@ def test_an_answer_is_given_anew_where_the_code_of_an_effect_has_changed(
     registry.code.cache_clear()
     try:
         assert say("--store", store, "diagnose", "baseline").code == 0
-        assert kept_diagnosis(Store(store), "baseline") is not None
+        assert question(Store(store), "baseline").kept() is not None
         (package / "helper.py").write_text("GAIN = 2.0\n")
         registry.code.cache_clear()
-        assert kept_diagnosis(Store(store), "baseline") is None
+        assert question(Store(store), "baseline").kept() is None
     finally:
         registry.code.cache_clear()

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from thermodata.diagnosis.choice import confirm_choice
 from thermodata.diagnosis.locked.confirm import rmse
-from thermodata.diagnosis.run import confirm_choice, diagnose
+from thermodata.diagnosis.run import diagnose
 from thermodata.modelling import run
 from thermodata.modelling.named import newest_model
 from thermodata.report.collected.collect import collect

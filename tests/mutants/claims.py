@@ -927,7 +927,7 @@ MUTANTS = [
     diagnosis("exchanged.py", "DROP = 0.8", "DROP = 0.999", "exchanged cables are none"),
     diagnosis("exchanged.py", "LEFT * energy.sum()", "energy.sum() * 9", "what nothing foretells is exchanged"),
     diagnosis("exchanged.py", "and bool((turned <= (1 - EACH) * straight).all())", "", "a failed sensor is exchanged"),
-    diagnosis("exchanged.py", "len(found) + 2)", "0)", "of halves one is taken for exchanged"),
+    diagnosis("exchanged.py", "LEAST_TELLING = 2", "LEAST_TELLING = 9", "so many tests tell nothing"),
     diagnosis("exchanged.py", "LEAST_K = 0.5", "LEAST_K = 50.0", "no body is another one"),
     diagnosis("weak.py", "window.first and ", "", "what fails in the middle of a test is laid to its start"),
     diagnosis("weak.py", ' and window.test.start_state == "warm"', "", "a cold start is said to be warm"),

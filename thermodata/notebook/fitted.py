@@ -105,7 +105,7 @@ class Fit(Shown):
     def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation:
         """Opens the locked tests for an effect of your choice, by rank or id; the look is counted. response: of which,
         where the model has several; by default of that which was diagnosed."""
-        from thermodata.diagnosis.run import confirm_choice
+        from thermodata.diagnosis.choice import confirm_choice
 
         heed(self.store, [self.id])
         return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])

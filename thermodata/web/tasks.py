@@ -32,7 +32,7 @@ def add(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
 
 def confirm(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
     """`thermodata confirm MODEL CANDIDATE`."""
-    from thermodata.diagnosis.run import confirm_choice
+    from thermodata.diagnosis.choice import confirm_choice
 
     with watched(tell):
         found, _ = confirm_choice(Store(store), model, candidate)

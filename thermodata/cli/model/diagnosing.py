@@ -36,18 +36,19 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     the largest share is left, or --response; whose ranks the last answer has, add and confirm take.
     """
     from thermodata.cli.terminal.progress import counting_line
-    from thermodata.diagnosis.run import diagnose, kept_diagnosis
+    from thermodata.diagnosis.run import question
 
     store = session.store()
     ref = resolve(store, model, session, guess=False)
     _say_what_was_open(store, ref)
-    found = kept_diagnosis(store, ref, response)
+    asked = question(store, ref, response)
+    found = asked.kept()
     if found is not None:
         click.echo("from the store: model, data, effects and rules are as they were", err=True)
     else:
         before = _answered_before(store, ref, response)
         with counting_line() as tell:
-            found = diagnose(store, ref, tell, response)
+            found = asked.answered(tell)
         if said := _said_otherwise(before, found):
             click.echo(in_units_of(session, found.response, said), err=True)
     payload = with_stale(store, found.model, found)
@@ -67,7 +68,7 @@ def confirm_command(session: Session, model: str, candidates: tuple[str, ...], r
     Without a candidate each MODEL is scored on the locked tests as it stands: as tests are scored, and about each
     test's mean. The JSON is a list, a row a model and response.
     """
-    from thermodata.diagnosis.run import confirm_choice
+    from thermodata.diagnosis.choice import confirm_choice
 
     store = session.store()
     if len(candidates) != 1 or _is_model(store, candidates[0]):

@@ -69,8 +69,8 @@ def as_artefact(one: Exchange) -> Artefact:
 
 
 def exchanges(data: Dataset, tests: Sequence[TestData], response: str = "") -> list[Exchange]:
-    """tests: of one machine. The plainest first; each temperature of a test at most once, and each pair in fewer than
-    half of the tests that tell of it: which way round is right is what most tests say."""
+    """tests: of one machine. The plainest first, each temperature of a test at most once. What most tests have is taken
+    for right: of them are the gains."""
     if len(tests) <= LEAST_TELLING:
         return []
     sums = TemperatureSums(data, tests, response)
@@ -124,7 +124,7 @@ def _turned(gram: FloatND, cross: FloatND, energy: Float2D, rows: Int1D) -> tupl
             for t in range(len(gram))
             if t not in found and is_exchanged(straight[t], turned[t], energy[t], int(rows[t]))
         ]
-        if not plain or telling < max(LEAST_TELLING, len(found) + 2):
+        if not plain or telling < LEAST_TELLING:
             break
         best = min(plain, key=lambda t: float(turned[t].sum() / straight[t].sum()))
         found[best] = float(straight[best].sum()), float(turned[best].sum())
