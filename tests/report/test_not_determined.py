@@ -62,9 +62,16 @@ def test_nothing_is_said_where_all_are_determined() -> None:
 
 def test_what_is_missing_is_added_first() -> None:
     """A bending that nobody modelled blurs the air: the advice below 'missing: ...' is not to take the air out."""
-    text = verdict_sentence(diagnosis(model="0123456789", verdict="effect", undetermined=[one()]))
+    some = [one("a"), one("b", elsewhere="V03", elsewhere_um=7.0), one("c"), one("d")]
+    text = verdict_sentence(diagnosis(model="0123456789", verdict="effect", undetermined=some))
     assert (
-        "which may be for what is missing: add that first, and where it stays so, a test in which T_nut moves and the "
-        "rest does not"
+        "the tests that were fitted do not determine a (3.20 um/K, 95 %: -0.100 to 6.50), b (3.20 um/K, 95 %: -0.100 "
+        "to 6.50; 7.00 um in V03, against 0.500 um at most in those), c (3.20 um/K, 95 %: -0.100 to 6.50) and d: that "
+        "may be for what is missing, so add it first and ask again"
     ) in text
     assert "remove" not in text
+
+
+def test_of_two_gains_each_is_told() -> None:
+    text = said(one(gains={"screw.gain": GAIN, "screw.lead": GAIN}))
+    assert "its gain is 3.20 um/K (95 %: -0.100 to 6.50) and its lead is 3.20 um/K" in text
