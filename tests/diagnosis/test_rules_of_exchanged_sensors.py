@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.sensors.exchanged import exchanged_sensors, exchanges, is_exchanged
+from thermodata.diagnosis.sensors.exchanged import (
+    _look_exchanged,
+    _of_pair,
+    _suspects,
+    exchanged_sensors,
+    exchanges,
+    is_exchanged,
+)
+from thermodata.diagnosis.sensors.temperature_sums import TemperatureSums
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.report.verdict.log_faults import log_faults
@@ -139,3 +147,38 @@ def test_the_answer_tells_it() -> None:
     )
     found = answer(fit_model(spec, data, uncertainty=False), data, effects(), "m").diagnosis
     assert [(a.kind, a.test) for a in found.artefacts if a.kind == "exchanged"] == [("exchanged", "t3")]
+
+
+@pytest.mark.parametrize("missing", [False, True])
+def test_all_pairs_at_once_say_what_each_says_alone(missing: bool) -> None:
+    """By blocks of one inverse, or by a solution for each pair; one may not be measured in all tests."""
+    data = exchanged(exchanged(machine(), [3]), [5], "T_rear", NUT)
+    if missing:
+        gone = {n: v for n, v in data.tests[6].values.items() if n != "T_rear"}
+        data = replace(data, tests=(*data.tests[:6], replace(data.tests[6], values=gone), *data.tests[7:]))
+    sums = TemperatureSums(data, data.tests, "dZ")
+    pairs = [(a, b) for a in range(len(sums.names)) for b in range(a + 1, len(sums.names))]
+    told = {pair for pair in pairs if _of_pair(sums, *pair)}
+    assert told
+    assert told <= set(_suspects(sums)) < {*pairs, (-1, -1)}
+
+
+def test_what_is_left_of_a_pair_is_what_a_solution_leaves() -> None:
+    rng = np.random.default_rng(2)
+    parts = [rng.normal(size=(60, 5)) @ rng.normal(size=(5, 5)) for _ in range(4)]
+    for part in parts[:1]:
+        part[:, [3, 4]] = part[:, [4, 3]]
+    gram = np.stack([x.T @ x for x in parts])
+    size = np.sqrt(np.einsum("tkk->k", gram))
+    looks = _look_exchanged(gram / size[:, None] / size, size, np.array([[3, 4]]), np.full(4, 60))
+    by, both = np.arange(3), np.array([3, 4])
+    alone = []
+    for t in range(4):
+        others = np.delete(gram, t, axis=0).sum(axis=0)
+        ridge = 0.01 * np.diag(size[by] ** 2)
+        gains = np.linalg.solve(others[np.ix_(by, by)] + ridge, others[np.ix_(by, both)])
+        said = parts[t][:, by] @ gains
+        straight = ((parts[t][:, both] - said) ** 2).sum(axis=0)
+        turned = ((parts[t][:, both[::-1]] - said) ** 2).sum(axis=0)
+        alone.append(bool(is_exchanged(straight, turned, (parts[t][:, both] ** 2).sum(axis=0), 60)))
+    assert looks.tolist() == [any(alone)]

@@ -9,16 +9,17 @@ taken for it. It is told, and nothing is moved.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.sensors.temperature_sums import LEAST_SIZE, RIDGE, TemperatureSums, machines
-from thermodata.plugin import Float1D, Float2D, Int1D
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.words.sentences import counted
 from thermodata.view.grid.dataset import Dataset, TestData
@@ -74,14 +75,67 @@ def exchanges(data: Dataset, tests: Sequence[TestData], response: str = "") -> l
     if len(tests) <= LEAST_TELLING:
         return []
     sums = TemperatureSums(data, tests, response)
-    pairs = combinations(range(len(sums.names)), 2)
-    found = sorted((e for a, b in pairs for e in _of_pair(sums, a, b)), key=lambda e: e.turned / e.straight)
+    found = sorted((e for a, b in _suspects(sums) for e in _of_pair(sums, a, b)), key=lambda e: e.turned / e.straight)
     kept: list[Exchange] = []
     for one in found:
         of_test = {n for e in kept if e.test.key == one.test.key for n in e.names}
         if of_test.isdisjoint(one.names):
             kept.append(one)
     return kept
+
+
+def _suspects(sums: TemperatureSums) -> Iterator[tuple[int, int]]:
+    """The pairs, by their places among the names, of which a test looks exchanged before any is put right. All pairs
+    at once: gains on all columns but two follow from the inverse of the products of all of them, by its blocks."""
+    of_tests: dict[tuple[int, ...], list[tuple[int, int]]] = {}
+    for a, b in combinations(range(len(sums.names)), 2):
+        of_tests.setdefault(tuple(np.flatnonzero(sums.seen[:, a] & sums.seen[:, b]).tolist()), []).append((a, b))
+    for used, pairs in of_tests.items():
+        if len(used) <= LEAST_TELLING:
+            continue
+        places = np.flatnonzero(sums.seen[list(used)].all(axis=0))
+        columns = np.array([*range(sums.commands), *(sums.commands + places)], dtype=np.int64)
+        gram = sums.gram[np.ix_(np.array(used), columns, columns)]
+        size = np.sqrt(np.einsum("tkk->k", gram))
+        moves = size > LEAST_SIZE
+        gram = gram[:, moves][:, :, moves] / size[moves, None] / size[moves]
+        where = {int(c): k for k, c in enumerate(columns[moves])}
+        kept = [(a, b) for a, b in pairs if sums.commands + a in where and sums.commands + b in where]
+        if not kept:
+            continue
+        both = np.array([[where[sums.commands + a], where[sums.commands + b]] for a, b in kept])
+        looks = _look_exchanged(gram, size[moves], both, sums.rows[list(used)])
+        yield from (pair for pair, so in zip(kept, looks.tolist(), strict=True) if so)
+
+
+def _look_exchanged(gram: FloatND, size: Float1D, both: NDArray[np.int64], rows: Int1D) -> Bool1D:
+    """Of pairs of columns, shape (pairs, 2), whether any test looks exchanged, shape (pairs,). gram: of columns of unit
+    size, shape (tests, k, k); size: theirs before, shape (k,)."""
+    a, b = both.T
+    own, other = size[both], size[both[:, ::-1]]
+    looks = np.zeros(len(both), dtype=np.bool_)
+    whole = gram.sum(axis=0) + RIDGE * np.eye(len(size))
+    for test, of in enumerate(gram):
+        inverse = np.linalg.inv(whole - of)
+        across, twice = of @ inverse, inverse @ of @ inverse
+        block = inverse[both[:, :, None], both[:, None, :]]
+        turn = np.linalg.inv(block)
+        # what is left of each: a combination of all columns, its own once and the other of the pair not at all
+        square = np.einsum("pij,pik,pkl->pjl", turn, twice[both[:, :, None], both[:, None, :]], turn)
+        left = np.einsum("pii->pi", square)
+        seen = across[both[:, :, None], both[:, None, :]] @ turn  # row: a column that is measured; column: what is left
+        energy = of[both, both]
+        between = of[a, b][:, None]
+        straight = own**2 * left
+        # the same with the other's reading in place of its own
+        told = own**2 * (left - 2 * np.einsum("pii->pi", seen) + energy)
+        with_other = np.stack([seen[:, 1, 0], seen[:, 0, 1]], axis=1) - between
+        turned = told + 2 * own * other * with_other + other**2 * energy[:, ::-1]
+        looks |= [
+            is_exchanged(*of_pair, int(rows[test]))
+            for of_pair in zip(np.maximum(straight, 0), np.maximum(turned, 0), own**2 * energy, strict=True)
+        ]
+    return looks
 
 
 def _of_pair(sums: TemperatureSums, a: int, b: int) -> list[Exchange]:
