@@ -20,10 +20,9 @@ from thermodata.schema.units.letters import encoding_hint
 from thermodata.schema.units.quantity import MEASURED, PROBED, STATES, canonical
 from thermodata.schema.units.unit import is_unit, normal_unit
 from thermodata.schema.units.value import split_value
+from thermodata.schema.words.on_off import on_or_off
 
 _COLDEST_DEGC = -273.15
-TRUE_WORDS = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})
-FALSE_WORDS = frozenset({"0", "false", "off", "no", "ne", "aus", "nein"})
 
 
 def calibrate(
@@ -266,10 +265,7 @@ def _from_text(raw: Array, state: bool) -> Float1D:
     words, index = np.unique(np.asarray(raw, dtype=object).astype(str), return_inverse=True)
     numbers = np.full(len(words), np.nan)
     for i, word in enumerate(words.tolist()):
-        bare = word.strip().casefold()
-        if state and bare in TRUE_WORDS | FALSE_WORDS:
-            numbers[i] = float(bare in TRUE_WORDS)
-            continue
-        numbers[i] = number_in(bare)
+        switched = on_or_off(word) if state else None
+        numbers[i] = number_in(word.strip().casefold()) if switched is None else switched
     result: Float1D = numbers[index.reshape(-1)]
     return result

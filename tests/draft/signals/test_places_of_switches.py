@@ -57,7 +57,7 @@ def test_an_empty_cell_keeps_no_words_from_being_a_switch(empty: object, switch:
 @pytest.mark.parametrize("block", [("ON", None, "OFF"), (None, None, None)])
 def test_a_block_of_empty_cells_keeps_no_words_from_being_a_switch(block: tuple[object, ...]) -> None:
     values: dict[tuple[str, str], Values] = {}
-    worded: set[tuple[str, str]] = set()
+    worded: dict[tuple[str, str], frozenset[str]] = {}
     for cells in (("ON", "OFF", "ON"), block, ("OFF", "ON", "ON")):
         made = {"pump": np.array(cells, dtype=object)}
         _take(Block("main", np.arange(3), made), values, {}, set(), worded)

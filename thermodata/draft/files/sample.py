@@ -24,6 +24,7 @@ SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 LONGEST_JUMP_NS = 3600 * 10**9
 HEAD_NS = 1800 * 10**9  # of a jump test at the beginning of a test
+MOST_WORDS = 2  # of what may be a switch
 _PROBES = ("displacement", "voltage")
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _PROBE_ROWS = 20_000  # of a block of a probe, which may be moved for seconds within hours
@@ -78,7 +79,8 @@ class Sample:
     mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
     the file that the courses are of, where that is not all of it; periods_s: how far the rows of a stream are usually
     apart; heads: the first half hour of each probe, of whose jump test a course may have no point on a plateau; steps:
-    the stretches of a long log in which a probe goes in sudden steps, as in a jump test."""
+    the stretches of a long log in which a probe goes in sudden steps, as in a jump test; words: some of those that
+    signals have which are no switch."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -97,6 +99,7 @@ class Sample:
     periods_s: Mapping[str, float] = field(default_factory=dict)
     heads: Mapping[tuple[str, str], Course] = field(default_factory=dict)
     steps: Mapping[tuple[str, str], tuple[Course, ...]] = field(default_factory=dict)
+    words: Mapping[tuple[str, str], frozenset[str]] = field(default_factory=dict)
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
@@ -107,7 +110,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     repeats, clocks = RepeatedTimes(), dict[str, Clock]()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
-    worded = set[tuple[str, str]]()
+    worded: dict[tuple[str, str], frozenset[str]] = {}
     probes = {(s.stream, s.name) for s in recording.signals if guess_of(s).quantity in _PROBES}
     wanted = {k: _PROBE_ROWS if k in probes else _KEPT_ROWS for k in _courses(recording.signals)}
     first: int | None = None
@@ -157,6 +160,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         periods_s={stream: clock.period_s for stream, clock in clocks.items()},
         heads={k: _thinned(_head(v, first or 0)) for k, v in parts.items() if k in told and k in probes},
         steps={} if brief else {k: _in_steps(v) for k, v in parts.items() if k in told and k in probes},
+        words=worded,
     )
 
 
@@ -199,15 +203,15 @@ def _take(
     values: dict[tuple[str, str], Values],
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
     wanted: Mapping[tuple[str, str], int],
-    worded: set[tuple[str, str]],
+    worded: dict[tuple[str, str], frozenset[str]],
 ) -> None:
     """wanted: signals whose course is kept -> about how many rows of a block; worded: signals so far with words that
-    are none of a switch; they have no values."""
+    are none of a switch; they have no values. -> some of these words"""
     for name, column in block.values.items():
         key = (block.stream, name)
         seen = values_of(column)
-        if seen is None and column.dtype.kind in "OUS" and any(map(bare_word, column.tolist())):
-            worded.add(key)
+        if seen is None and column.dtype.kind in "OUS":
+            worded |= _worded(key, column, worded, values)
         if key in worded:
             values.pop(key, None)
             continue
@@ -217,6 +221,22 @@ def _take(
         if key in wanted and column.dtype.kind in "biuf":
             step = max(1, column.size // wanted[key])
             parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
+
+
+def _worded(
+    key: tuple[str, str],
+    column: Array,
+    worded: Mapping[tuple[str, str], frozenset[str]],
+    values: Mapping[tuple[str, str], Values],
+) -> dict[tuple[str, str], frozenset[str]]:
+    """The words of a signal with those of another block of it, which are none of a switch; none of an empty one."""
+    before = worded.get(key, frozenset())
+    if len(before) > MOST_WORDS:
+        return {}
+    # those of a block that had values are not kept, but are others than these
+    before |= {"on", "off", "or a number"} if key in values else frozenset()
+    said = {bare for word in set(column.tolist()) if (bare := bare_word(word))}
+    return {key: before | frozenset(sorted(said)[: MOST_WORDS + 1])} if said else {}
 
 
 def _coarse(parts: Sequence[tuple[Int1D, Array]]) -> list[tuple[Int1D, Array]]:

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
 from thermodata.calibration.quality.ends.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
 from thermodata.draft.signals.numerals import bare_word, numerals_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.units.conversion import linear_conversion
+from thermodata.schema.words.on_off import on_or_off
 
 _FEW = 8
 _LOOKED_AT = 2000  # rows, for how many values there are
@@ -134,11 +134,10 @@ def _body(x: Float1D) -> tuple[float, float] | None:
 
 def _switched(column: Array) -> Float1D | None:
     """The words of a switch as 0 and 1, as ingest counts them; None where others stand among them. shape (n,)."""
-    bare = {word: bare_word(word).lower() for word in set(column.tolist())}
-    said = {word: b for word, b in bare.items() if b}
-    if not said or not TRUE_WORDS.union(FALSE_WORDS).issuperset(said.values()):
+    bare = {word: bare_word(word) for word in set(column.tolist())}
+    numbers = {word: number for word, b in bare.items() if b and (number := on_or_off(b)) is not None}
+    if not numbers or len(numbers) < sum(map(bool, bare.values())):
         return None
-    numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
     return np.array([numbers.get(word, np.nan) for word in column.tolist()])
 
 

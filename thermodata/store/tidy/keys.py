@@ -20,7 +20,7 @@ from thermodata.store.tidy.rows.on_change import BY_HAND
 from thermodata.store.tidy.values.series import Member
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
-TIDY_VERSION = "40"
+TIDY_VERSION = "41"
 
 
 def member_key(

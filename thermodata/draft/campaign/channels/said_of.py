@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.draft.campaign.channels.beside_others import coldest_in, in_fahrenheit
+from thermodata.draft.files.sample import MOST_WORDS
 from thermodata.draft.folder.beside.legend import IN_LEGEND, TOLD_TOO
 from thermodata.draft.folder.into_sources.one_signal import OneSignal
 from thermodata.draft.signals.guess import called, guess, told_of
@@ -19,13 +21,15 @@ from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.plugin import Signal
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.rows.quality_columns import STATE_OF
+from thermodata.schema.words.on_off import SHOWN
 
 
 @dataclass(frozen=True, slots=True)
 class _InFiles:
     """A signal as each of its files has it. usual: the unit that most of them say, of those that say one; units, names:
     how often each is said; by_path: its values in each, in the file's own unit; heads: what stands over it -> the
-    files; own: file name -> the signal there; values: of all files, in the usual unit, None where one lacks them."""
+    files; own: file name -> the signal there; values: of all files, in the usual unit, None where one lacks them;
+    two_words: of a signal of texts, the two that stand in all files together, and both in one of them."""
 
     usual: str | None
     units: Counter[str | None]
@@ -34,6 +38,7 @@ class _InFiles:
     heads: dict[str, list[str]]
     own: dict[str, Signal]
     values: Values | None
+    two_words: tuple[str, ...]
 
 
 def _in_files(one: OneSignal) -> _InFiles:
@@ -55,7 +60,15 @@ def _in_files(one: OneSignal) -> _InFiles:
         heads=heads,
         own={f.path.name: own for f, own in signals},
         values=None if words_of_no_switch else values,
+        two_words=_two_words([w for f, own in signals if (w := f.sample.words.get((own.stream, own.name)))]),
     )
+
+
+def _two_words(by_file: Sequence[frozenset[str]]) -> tuple[str, ...]:
+    """by_file: words of a signal in each of its files. Names of parts and tools are numbered, and no switch."""
+    both = frozenset[str]().union(*by_file)
+    numbered = any(c.isdigit() for word in both for c in word)
+    return tuple(sorted(both)) if len(both) == MOST_WORDS and both in by_file and not numbered else ()
 
 
 def said_of(one: OneSignal) -> tuple[Guess, str | None]:
@@ -73,6 +86,8 @@ def said_of(one: OneSignal) -> tuple[Guess, str | None]:
         return _as_state(said, signal.properties[STATE_OF], files.values), note
     if len(files.units) > 1 and said.quantity:
         return _with_units_asked(said, files.units), note
+    if said.quantity == "label" and files.two_words:
+        return _with_switch_asked(said, files.two_words), note
     return _with_questions(one, said, files), note
 
 
@@ -100,6 +115,15 @@ def _as_state(said: Guess, of: str, values: Values | None) -> Guess:
     known = values is not None and values.low >= 0 and values.high <= 1  # on and off
     as_state = replace(said, quantity="state", unit=None, instead_of=None, why_not=None, sure=False, basis=("name",))
     return replace(as_state, questions=() if known else (asked,))
+
+
+def _with_switch_asked(said: Guess, two: tuple[str, ...]) -> Guess:
+    """With the question whether a text of two words is a switch."""
+    asked = (
+        f"a switch? its words are '{two[0][:20]}' and '{two[1][:20]}', and which is on is not known here: write 1 and "
+        f"0 into the files, or words that are ({SHOWN}); a label keeps its words and drives nothing"
+    )
+    return replace(said, sure=False, questions=(*said.questions, asked))
 
 
 def _with_units_asked(said: Guess, units: Counter[str | None]) -> Guess:

@@ -17,6 +17,7 @@ from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.reader.text.cells.values.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical
+from thermodata.schema.words.on_off import SHOWN
 from thermodata.store.tidy.plan import derive
 from thermodata.store.tidy.plan.plan import Bound, TestPlan
 from thermodata.store.tidy.rows.timeline import Timeline
@@ -219,5 +220,12 @@ def _say_words(raw: Array | None, column: Column, problems: list[str]) -> None:
         return
     lost = [str(raw[i]) for i in np.flatnonzero(np.isnan(column.values)).tolist() if raw[i] is not None]
     word = next((w for w in lost if not is_empty(w) and not is_overload(w)), None)
-    if word is not None:
-        problems.append(f"{said}, such as '{word[:40]}': what is no number is left without a value")
+    if word is None:
+        return
+    lost_to = "what is no number is left without a value"
+    if column.bound.channel.quantity == "state":
+        lost_to += (
+            f"; try: write 1 and 0 into the file, or words for on and off that are known here ({SHOWN}); or "
+            "quantity: label, which keeps the words and drives nothing"
+        )
+    problems.append(f"{said}, such as '{word[:40]}': {lost_to}")
