@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from thermodata.draft.signals import units
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import Values, values_of
 
@@ -68,3 +69,27 @@ def test_a_delta_in_an_absolute_unit_asks_and_a_rise_is_a_difference() -> None:
     assert "quantity: temperature_difference" in guess("dT_front", "°F", "float64", _seen(0.0, 8.0)).comment()
     assert "temperature_difference" not in guess("dT_front", "°F", "float64", _seen(68.0, 80.0)).comment()
     assert guess("T_rise_rear", "°F", "float64", _seen(0.0, 8.0)).quantity == "temperature_difference"
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "axis"),
+    [
+        ("/probes.x_volt", "displacement", "X"),  # a field of a message
+        ("probe_x_volts", "displacement", "X"),
+        ("dz_volt", "displacement", "Z"),
+        ("bus_volt", "voltage", None),
+        ("drives.x_volt", "voltage", None),
+    ],
+)
+def test_volts_at_the_end_of_a_name_are_its_unit_and_say_no_quantity(
+    name: str, quantity: str, axis: str | None
+) -> None:
+    said = guess(name, None)
+    assert (said.quantity, said.axis) == (quantity, axis)
+    assert units.converts(said.unit or "", "voltage")
+    assert bool(said.questions) is (quantity == "voltage"), "what does it measure?"
+
+
+@pytest.mark.parametrize(("name", "unit"), [("x drive voltage", "V"), ("Spannung X", "V"), ("Volt", None)])
+def test_a_name_that_says_a_voltage_is_one(name: str, unit: str | None) -> None:
+    assert guess(name, unit).quantity == "voltage"

@@ -11,6 +11,7 @@ from thermodata.draft.signals.numerals import numeral_question
 from thermodata.draft.signals.quantity.by_name import by_name
 from thermodata.draft.signals.quantity.by_unit import by_unit
 from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, OF_NONE, Guess
+from thermodata.draft.signals.told_units.unit_at_end import without_volts
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
@@ -28,6 +29,8 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
         return _of_numerals(quantity_of(own, text, unit, "float64", values), values)
     if dtype == "str":
         return _of_words(own, unit, bare, values)
+    if not bare:
+        own, text = without_volts(own), without_volts(text)
     named = quantities_in(own) or quantities_in(text)
     foreign = foreign_in(own)
     if dtype == "bool":
