@@ -78,3 +78,26 @@ def test_the_first_name_counts_most_and_folders_add() -> None:
 def test_a_piece_of_a_pattern_is_a_speed_or_a_number() -> None:
     assert speed_in("S8000")
     assert not speed_in("S001")
+
+
+@pytest.mark.parametrize(
+    "name", ["20260307_f_2", "20260304_c", "2026-03-04c", "04.03.2026_c", "26_03_17_c", "2026-03-02_0800_c", "20260307_f"]
+)
+def test_the_letter_of_a_test_of_a_day_makes_no_quantity_of_its_date(name: str) -> None:
+    said = said_by([name])
+    assert set(said.conditions) <= {"date"}
+    assert said.questions == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "conditions"),
+    [
+        ("20260307_f2000", {"feed": "2000 mm/min", "date": "2026-03-07"}),
+        ("20260307_f 2000", {"feed": "2000 mm/min", "date": "2026-03-07"}),
+        ("20260307_f_n6000", {"speed": "6000 rpm", "date": "2026-03-07"}),
+        ("2026-03-07_air 22c", {"air": "22 degC", "date": "2026-03-07"}),
+        ("f_2", {"feed": "2 m/min"}),
+    ],
+)
+def test_what_a_name_says_beside_its_date_stays(name: str, conditions: dict[str, str]) -> None:
+    assert said_by([name]).conditions == conditions

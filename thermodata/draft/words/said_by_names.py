@@ -44,6 +44,8 @@ _DATE = re.compile(  # '31.03.2026 08_10_00' is no 2026-08-10
 )
 _DATE_DMY = re.compile(rf"(?<!\d)(0?[1-9]|[12]\d|3[01])\.(0?[1-9]|1[0-2])\.(20\d\d)(?!\d){_TIME}")
 _DATE_SHORT = re.compile(r"(?<![\d.-])(\d\d)([-. ])(\d\d)\2(\d\d)(?![\d-])")
+# tests of one day are told by letters: 20260307_f, of which 20260307_f_2 is another part; f 2000 is a feed
+_DAY_LETTER = r"(?:[ -]?[a-z](?![a-z0-9])(?! ?\d{3}))?"
 _FIRST_YEAR = 2015  # that two digits of a date are of, up to now
 
 
@@ -65,12 +67,13 @@ def said_by(names: Sequence[str]) -> SaidByNames:
     """What names say. names: of the test, of its folders and files, the one that counts most first."""
     texts = [_plain(n) for n in names]
     likely = tool_and_coolant(names)
-    speed, date = _speed(texts), _date(texts)
+    undated = [_without_day(t) for t in texts]
+    speed, date = _speed(undated), _date(texts)
     all_of_it = (
         speed,
-        _feed(texts),
-        _air(texts),
-        _air_conditioning(texts),
+        _feed(undated),
+        _air(undated),
+        _air_conditioning(undated),
         SaidByNames(likely, frozenset(likely)),
         date,
     )
@@ -86,11 +89,18 @@ def said_by(names: Sequence[str]) -> SaidByNames:
 
 def speed_in(piece: str) -> bool:
     """Whether a piece of a name states a speed, and nothing else: 'S8000', '6000rpm', not 'S001'."""
-    return "speed" in _speed([_plain(piece)]).conditions
+    return "speed" in _speed([_without_day(_plain(piece))]).conditions
 
 
 def _plain(name: str) -> str:
     return without_marks(name).replace("_", " ").casefold()
+
+
+def _without_day(text: str) -> str:
+    """A name without its date and the letter of a test of that day, whose digits are no quantity."""
+    for pattern in (_DATE, _DATE_DMY, *([_DATE_SHORT] if _short_dates([text]) else [])):
+        text = re.sub(pattern.pattern + _DAY_LETTER, " ", text)
+    return text
 
 
 def _first(pattern: re.Pattern[str], texts: Sequence[str]) -> re.Match[str] | None:
@@ -103,7 +113,6 @@ def _value(text: str, thousands: bool = False) -> float:
 
 def _speed(texts: Sequence[str]) -> SaidByNames:
     """The speed or the schedule; the readings of a speed that has several, and which is asked."""
-    texts = [_DATE.sub(" ", t) for t in texts]  # 'speed-2026-09-01' says none
     if match := _first(_SCHEDULE, texts):
         parts = re.split(r"[+>-]", match[1] or match[3])
         thousands = (match[2] or match[4] or "").startswith("k") or parts[-1].endswith("k")
