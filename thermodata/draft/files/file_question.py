@@ -20,6 +20,7 @@ _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 _FORMAT: Mapping[str, Any] = {"time": {"format": UNKNOWN}}
 _BY_HALF = "with AM or PM most loggers write the month first, British and Australian ones the day"
+STANDS = "stands: "  # begins the question whether a value stands over the empty cells behind it
 _NO_START = "none if it is no start"
 
 
@@ -45,7 +46,7 @@ def of_notes(notes: Sequence[str], *, timed: bool) -> list[FileQuestion]:
         asked += [FileQuestion(f"time: {n}", {}) for n in notes if re.search(_ASSUMED, n)]
         asked += [FileQuestion(_asked_unread(n), START) for n in notes if UNREAD in n]
         asked += [FileQuestion(_asked_start(n), START) for n in notes if NOT_TAKEN in n and "{start: head}" in n]
-    return [*asked, *(FileQuestion(f"stands: {n}", {}) for n in notes if DOUBT in n)]
+    return [*asked, *(FileQuestion(f"{STANDS}{n}", {}) for n in notes if DOUBT in n)]
 
 
 def open_order(note: str) -> FileQuestion | None:

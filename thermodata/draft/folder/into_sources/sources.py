@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.draft.files.described_file import merged
-from thermodata.draft.files.file_question import FileQuestion
+from thermodata.draft.files.file_question import STANDS, FileQuestion
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.into_sources.loggers import loggers
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
 from thermodata.reader.files.rotated import unrotated
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.rows.changed_cells import CHANGES
 from thermodata.schema.words.numbered import numbered
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
@@ -60,7 +61,11 @@ class Group:
         return tuple(first.values())
 
     def _asked(self) -> list[FileQuestion]:
-        return [a for f in (*self.files, *self.calibrations) for a in f.asked]
+        files = (*self.files, *self.calibrations)
+        doubted = [f for f in files if any(a.ask.startswith(STANDS) for a in f.asked)]
+        # what is too short to tell how its cells were written is read as the others of its recorder
+        told = 2 * len(doubted) < len(files) and not any(CHANGES in n for f in files for n in f.recording.notes)
+        return [a for f in files for a in f.asked if not (told and a.ask.startswith(STANDS))]
 
     @property
     def signals(self) -> list[tuple[Signal, list[RawFile]]]:
@@ -136,7 +141,8 @@ def _kind(file: RawFile) -> tuple[object, ...]:
     # mark where only some tests turn at thousands, the start where only some have a line on it, names where only some
     # have a header, and what a quality of 0 means where only some have other codes
     told = [a.declare for a in file.asked if not {"format", "start"} & {*a.declare.get("time", {})}]
-    told = [d for d in told if not {"decimal", "names", "quality_zero"} & {*d}]
+    # what asks and declares nothing parts no sources either
+    told = [d for d in told if d and not {"decimal", "names", "quality_zero"} & {*d}]
     return file.reader, unrotated(file.path).suffix.lower(), file.sheet is not None, file.sensor, repr(told)
 
 

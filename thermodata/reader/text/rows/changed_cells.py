@@ -27,6 +27,7 @@ from thermodata.schema.units.unit import normal_unit
 from thermodata.schema.words.sentences import with_count
 
 KEY = "stands"  # of a table's layout
+CHANGES = "written where they change"  # of columns that do
 DOUBT = "most cells are empty"  # of columns that may stand
 _LEAST = 30  # written cells that prove it
 _REPEATS = 0.02  # of them may repeat the one before: two rounded alike, a piece of the file left out between them
@@ -125,7 +126,7 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
     stands = [names[k] for k in wordless if whole or verdicts[k] == "stands"]
     if stands:
         shown = with_count(stands, _SHOWN)
-        note = f"{shown}: written where they change: each value stands over the empty cells behind it"
+        note = f"{shown}: {CHANGES}: each value stands over the empty cells behind it"
         return frozenset(
             names if whole and len(stands) == len(gaps) else stands
         ), f"{note}; else table: {{{KEY}: none}}"
