@@ -86,3 +86,15 @@ def test_a_feed_of_no_one_axis_is_named_as_that_of_the_path(tmp_path: Path) -> N
         v.why
         == "no feed of X is logged (path_feed may be that of the path of all axes); it is the rate of its position"
     )
+
+
+def test_strokes_that_keep_step_with_the_logger_are_seen_at_few_places(tmp_path: Path) -> None:
+    strokes = np.where(np.arange(ROWS) < 400, -100.0, 100.0 * np.array([-1.0, 0.0, 1.0, 0.0])[np.arange(ROWS) % 4])
+    (v,) = _derived(tmp_path, {"X pos [mm]": strokes}, 2.0)
+    assert v.derive == "rate(X_pos)"
+    assert v.why.endswith("seen at 3 places only: its strokes keep step with the logger, and the rate is too small")
+
+
+def test_places_where_the_tool_stands_for_some_rows_are_no_strokes(tmp_path: Path) -> None:
+    stands = 100.0 * (np.arange(ROWS) // 10 % 2)
+    assert _derived(tmp_path, {"X pos [mm]": stands}, 2.0) == ()

@@ -15,7 +15,9 @@ from thermodata.plugin import Float1D
 from thermodata.schema.units.conversion import linear_conversion
 
 _SLOWEST_S = 5.0  # between samples of a movement
-_FEW = 8  # values are places where the tool stands
+# few values are places where the tool stands, unless it goes on in more than that share of all rows: then its strokes
+# keep step with the logger
+_FEW, _IN_STEP = 8, 0.2
 _LEAST_MM = 1.0  # that an axis goes; less is how it is held in place
 # an axis moves from row to row by more than this share of its way, and does so in more than that share of its rows
 _STEP, _MOVING = 1e-4, 0.05
@@ -29,13 +31,20 @@ def feeds_of_positions(channels: Sequence[DraftChannel], groups: Sequence[Group]
     # an actual position before one that may be the commanded one
     for channel in sorted(_positions(channels), key=lambda c: bool(c.said.questions)):
         axis = str(channel.said.at).split(".")[1]
-        if axis in found or _has_feed(channels, axis) or not _moves(channel, of_source[channel.source]):
+        if axis in found or _has_feed(channels, axis):
+            continue
+        seen = _goes_in(channel, of_source[channel.source])
+        if not seen:
             continue
         name = channel_name(f"v_{axis}", taken)
         taken.add(name.lower())
         path = next((c.name for c in channels if c.said.quantity == "feed" and not _is_of_an_axis(c)), None)
         beside = f" ({path} may be that of the path of all axes)" if path else ""
         why = f"no feed of {axis.upper()} is logged{beside}; it is the rate of its position"
+        if max(seen) <= _FEW:
+            why += (
+                f", seen at {max(seen)} places only: its strokes keep step with the logger, and the rate is too small"
+            )
         found[axis] = DerivedChannel(name, f"rate({channel.name})", "feed", "m/min", f"axis.{axis}", why)
     return tuple(found[axis] for axis in sorted(found))
 
@@ -53,21 +62,25 @@ def _is_of_an_axis(channel: DraftChannel) -> bool:
     return str(channel.said.at).startswith("axis.")
 
 
-def _moves(channel: DraftChannel, group: Group) -> bool:
-    """Whether any file has it in rows that are dense enough, and the axis goes on in a good part of them."""
-    return any(_goes(x, channel.said.unit) for f in group.files for x in _courses(channel, f))
+def _goes_in(channel: DraftChannel, group: Group) -> list[int]:
+    """How many values it has, at most 9, in each file whose rows are dense enough and in a good part of which the axis
+    goes on."""
+    return [n for f in group.files for n, x in _courses(channel, f) if _goes(x, channel.said.unit)]
 
 
-def _courses(channel: DraftChannel, file: RawFile) -> Iterator[Float1D]:
-    """The values of a channel in a file, where its samples are near enough to each other and it has many values."""
+def _courses(channel: DraftChannel, file: RawFile) -> Iterator[tuple[int, Float1D]]:
+    """The values of a channel in a file, where its samples are near enough to each other and it has many values, or
+    goes on in many rows; and how many there are."""
     sample = file.sample
     for (stream, name), course in sample.courses.items():
         there = np.isfinite(course.values)
         if channel.signal not in (name, f"{stream}:{name}") or not there.any():
             continue
         values, apart_s = sample.values.get((stream, name)), sample.periods_s.get(stream, np.inf) / there.mean()
-        if values is not None and values.distinct > _FEW and apart_s <= _SLOWEST_S:
-            yield course.values[there]
+        if values is None or apart_s > _SLOWEST_S:
+            continue
+        if values.distinct > _FEW or values.moves > _IN_STEP:
+            yield values.distinct, course.values[there]
 
 
 def _goes(x: Float1D, unit: str | None) -> bool:
