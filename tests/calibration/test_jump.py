@@ -338,3 +338,12 @@ def test_coarse_volts_without_noise_are_no_rail() -> None:
     t_ns, volts = recording([100.0, 50.0, -200.0, -50.0, 100.0], noise_v=0.0)
     with pytest.raises(CalibrationError, match="are not found"):  # each plateau is one voltage: its last is no rail
         jump([100.0, -37.0, 81.0, -19.0], (t_ns, np.round(volts, 2)))
+
+
+@pytest.mark.parametrize("rate", [0.2, 10.0])
+def test_noise_is_told_of_few_samples_a_plateau(rate: float) -> None:
+    moves = [100.0, -100.0, -100.0, 100.0]
+    every = {"dwell": 30.0, "lead": 30.0, "tail": 60.0, "uneven": 0.0}
+    data = [recording(moves, rate=rate, noise_v=0.004, seed=k, **every) for k in range(6)]
+    noise_um = [jump(moves, one, dwell="30 s").noise_um for one in data]
+    assert np.mean(noise_um) == pytest.approx(0.1, rel=0.4)

@@ -81,7 +81,8 @@ def test_a_piece_of_a_pattern_is_a_speed_or_a_number() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["20260307_f_2", "20260304_c", "2026-03-04c", "04.03.2026_c", "26_03_17_c", "2026-03-02_0800_c", "20260307_f"]
+    "name",
+    ["20260307_f_2", "20260304_c", "2026-03-04c", "04.03.2026_c", "26_03_17_c", "2026-03-02_0800_c", "20260307_f"],
 )
 def test_the_letter_of_a_test_of_a_day_makes_no_quantity_of_its_date(name: str) -> None:
     said = said_by([name])

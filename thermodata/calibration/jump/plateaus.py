@@ -233,7 +233,8 @@ def _plateau_between(t_s: Float1D, volts: Float1D, start: float, end: float) -> 
     t, v = t[keep], v[keep]
     middle = float(t.mean())
     slope, level = (float(c) for c in np.polyfit(t - middle, v, 1)) if len(t) > 4 else (0.0, float(v.mean()))
-    noise = float(np.std(v - level - slope * (t - middle), ddof=2)) if len(t) > 4 else 0.0
+    # of three or four samples the slope is not known, and their scatter about the mean is the most that is noise
+    noise = float(np.std(v - level - slope * (t - middle), ddof=2 if len(t) > 4 else 1)) if len(t) > 1 else 0.0
     return Plateau(middle, start, end, level, slope, noise, len(t))
 
 

@@ -27,6 +27,8 @@ NAMED = (
 _LONGEST_S = LONGEST_JUMP_NS / 1e9
 _MOST_STEPS, _LEAST_STEPS = 40, 2
 TRAVEL_MM = 5.0  # more than that an axis travels, and no probe goes
+# a jump test is as short as a logger's rate lets it be: three plateaus of so many samples
+_LEAST_ROWS, _FEW_ROWS, _LEAST_ON_PLATEAU = 12, 40, 4
 _ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
 _APART = 0.5  # of a dwell, from the last step of one probe to the first of another that moves in turn
 
@@ -171,7 +173,7 @@ def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
     # of a clock that was set back, what came before
     grows = np.concatenate([[True], t[1:] > np.maximum.accumulate(t)[:-1]]) if t.size else np.zeros(0, bool)
     t, x = t[grows], x[grows]
-    if t.size < 40 or t[-1] > _LONGEST_S or np.ptp(x) <= 0:
+    if t.size < _LEAST_ROWS or t[-1] > _LONGEST_S or np.ptp(x) <= 0:
         return None
     best: tuple[float, tuple[Step, ...], float] | None = None
     for share in (60, 40, 25, 15, 10, 6, 4):
@@ -179,7 +181,7 @@ def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
         steps, noise = find_steps(t, x, dwell)
         largest = max((abs(s.size) for s in steps), default=0.0)
         steps = [s for s in steps if abs(s.size) > max(0.08 * largest, 10 * noise)]
-        if not _LEAST_STEPS <= len(steps) <= _MOST_STEPS:
+        if not _LEAST_STEPS <= len(steps) <= _MOST_STEPS or (t.size < _FEW_ROWS and not _stood(t, steps)):
             continue
         rest = _unexplained(t, x, steps)
         if best is None or rest < 0.8 * best[0]:
@@ -189,6 +191,12 @@ def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
     if best is None or best[0] > 0.03:
         return None
     return best[1], best[2]
+
+
+def _stood(t: Float1D, steps: Sequence[Step]) -> bool:
+    """Whether several samples lie on each plateau, so that few of them are no chance."""
+    edges = np.searchsorted(t, [float(t[0]), *(s.t_s for s in steps), np.inf])
+    return bool((np.diff(edges) >= _LEAST_ON_PLATEAU).all())
 
 
 def _unexplained(t: Float1D, x: Float1D, steps: list[Step]) -> float:
