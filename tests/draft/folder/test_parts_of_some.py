@@ -89,3 +89,22 @@ def test_files_that_each_count_from_their_own_start_stay_tests(tmp_path: Path) -
     draft = draft_files(tmp_path).draft
     assert len(draft.tests) == 4
     assert not any("in parts" in n for n in draft.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "asked"),
+    [
+        ("M-2_2", "09:04:00", True),  # a quarter of an hour after it ended
+        ("M-2_2", "13:00:00", False),
+        ("M-2_2", "08:20:00", False),  # while it ran
+        ("M-22", "09:04:00", False),
+    ],
+)
+def test_a_number_behind_a_name_may_be_a_part_of_it(tmp_path: Path, name: str, start: str, asked: bool) -> None:
+    write(tmp_path, "M-1.asc", "07.04.2026 08:00:00", 1200)
+    write(tmp_path, "M-2.asc", "08.04.2026 08:00:00", 600)
+    write(tmp_path, f"{name}.asc", f"08.04.2026 {start}", 300)
+    write(tmp_path, "M-3.asc", "09.04.2026 08:00:00", 1200)
+    draft_files(tmp_path)
+    lines = [x for x in (tmp_path / "campaign.yaml").read_text("utf-8").splitlines() if "does it go on 'M-2'" in x]
+    assert [f"id: {name}," in line for line in lines] == ([True] if asked else [])
