@@ -82,3 +82,26 @@ def test_words_that_tell_of_the_readings_are_asked(name: str, asked: bool) -> No
 def test_a_head_of_displacements_in_the_plural_says_so(head: str) -> None:
     found = guess(f"{head}/Asse Y", "mm")
     assert (found.quantity, found.axis, found.at) == ("displacement", "Y", "tcp")
+
+
+def _tagged(folder: Path, *tags: str) -> dict[str, DraftChannel]:
+    """A logger's table whose addresses stand below a row of tags."""
+    names = [f"CH{k + 1:04d}" for k in range(len(tags))]
+    head = [["Canale", "", "", *names], ["Etichetta", "", "", *tags], ["Unit", "", "", *["degC"] * len(tags)]]
+    head += [["Data", "Ora", "ms", *names]]
+    rows = [["19/03/2026", f"05:{i:02d}:00", "000", *[f"{20 + i / 10:.2f}"] * len(tags)] for i in range(40)]
+    (folder / "ciclo.csv").write_text("".join(";".join(row) + "\n" for row in (*head, *rows)), "utf-8")
+    return {c.signal: c for c in draft_files(folder).draft.channels}
+
+
+def test_the_tag_over_an_address_is_shown_behind_what_is_guessed_by_it(tmp_path: Path) -> None:
+    found = _tagged(tmp_path, "Cuscinetto mandrino ant.", "Bussola guida", "Aria officina")
+    assert found["CH0001"].said.at == "spindle.bearing.front"
+    assert found["CH0001"].note == "called 'Cuscinetto mandrino ant.' in the file"
+    assert found["CH0002"].note == "called 'Bussola guida' in the file", "its place is asked"
+    assert "called 'Cuscinetto mandrino ant.' in the file" in (tmp_path / "campaign.yaml").read_text("utf-8")
+
+
+def test_a_head_over_several_columns_is_no_tag(tmp_path: Path) -> None:
+    found = channels(tmp_path / "lab", ["", "Temperatures", "", "Displacements", ""])
+    assert {found[name].note for name in ("front", "X", "Z")} == {None}

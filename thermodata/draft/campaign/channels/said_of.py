@@ -78,7 +78,8 @@ def said_of(one: OneSignal) -> tuple[Guess, str | None]:
     said = _by_name_and_values(signal, files)
     where = signal.properties.get(IN_LEGEND)
     only = next(iter(files.names)) if len(files.names) == 1 else ""
-    note = f"called '{only}' in {where or 'the file'}" if only else None
+    tag = only or ("" if where else _tag_over(one, files, said))
+    note = f"called '{tag}' in {where or 'the file'}" if tag else None
     if any(files.heads):
         said, note = with_head(said, signal, note, files.heads, files.values)
     said = with_scale_asked(with_text(said, next(iter(files.own.values()), signal)), files.own or {"": signal})
@@ -89,6 +90,20 @@ def said_of(one: OneSignal) -> tuple[Guess, str | None]:
     if said.quantity == "label" and files.two_words:
         return _with_switch_asked(said, files.two_words), note
     return _with_questions(one, said, files), note
+
+
+def _tag_over(one: OneSignal, files: _InFiles, said: Guess) -> str:
+    """What stands over the name of a signal alone in all its files, as the tag over a logger's address, where the guess
+    rests on it, or asks for a place; '' where it says nothing, and where the name holds it."""
+    over = {own.properties.get("group", "") for own in files.own.values()}
+    tag = over.pop() if len(over) == 1 else ""
+    own = next(iter(files.own.values()), None)
+    shared = sum(s.properties.get("group") == tag for s in one.files[0].signals) > 1 if one.files else True
+    if not tag or own is None or tag in own.name or shared:
+        return ""
+    bare = guess(own.name, files.usual, own.dtype, files.values)
+    by_it = (bare.quantity, bare.at, bare.axis) != (said.quantity, said.at, said.axis)
+    return tag if by_it or any(q.startswith("at:") for q in said.questions) else ""
 
 
 def _by_name_and_values(signal: Signal, files: _InFiles) -> Guess:
