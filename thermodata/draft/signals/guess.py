@@ -22,13 +22,7 @@ from thermodata.draft.signals.told_units.implied_unit import with_unit
 from thermodata.draft.signals.told_units.letter_of_unit import placed_but_for_unit
 from thermodata.draft.signals.told_units.name_factor import with_factor_asked
 from thermodata.draft.signals.told_units.standard_units import with_standard_unit
-from thermodata.draft.signals.told_units.unit_at_end import (
-    inch_asked,
-    strange,
-    unit_of_quantity,
-    volts_at_end,
-    without_volts,
-)
+from thermodata.draft.signals.told_units.unit_at_end import inch_asked, strange, unit_of_quantity
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
@@ -107,7 +101,7 @@ def guess(
     own, text, told = words(said.last), words(said.bare), words(described)
     field = words(said.field)
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
-    what = field if quantities_in(without_volts(field)) else own
+    what = field if quantities_in(units.without_volts(field)) else own
     if field == "temps" and said.field != said.bare and not unit:
         what = own = "temperature"  # the time of a message is no field of it called in French
 
@@ -195,7 +189,9 @@ class _Name:
 
     def unit(self) -> str | None:
         """The unit that stands in it, whatever the quantity is."""
-        at_end = next(filter(None, (find(end) for end in self.ends for find in (unit_at_end, volts_at_end))), None)
+        at_end = next(
+            filter(None, (find(end) for end in self.ends for find in (unit_at_end, units.volts_at_end))), None
+        )
         return _in_brackets(self.whole) or self.rate or at_end or units.inches(self.whole_last)
 
 

@@ -59,6 +59,7 @@ _COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _LABELS = re.compile(r"\s*\{[^{}]*\}$")
 _INCH = re.compile(r"[XYZUVW][_ ]?(?P<said>(?:ERR|POS|ACT|CMD|DEV|DISP|COMP)[A-Z_ ]*)? ?\(IN\)$")
+_VOLTS_AT_END = re.compile(r"(?<=[^_.\s])[_.\s]+(volts?)$", re.IGNORECASE)
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
@@ -84,6 +85,17 @@ def described(text: str, quantity: str | None) -> str | None:
 def without_value(name: str) -> str:
     """A path of names without a last one that says nothing: 'mc/probe/dZ_um/value' -> 'mc/probe/dZ_um'."""
     return _VALUE.sub("", name) or name
+
+
+def volts_at_end(name: str) -> str | None:
+    """The volts that a name ends with as a word: 'x_volt' -> 'volt'. Not that of 'Volt', which is its whole name."""
+    match = _VOLTS_AT_END.search(name.strip())
+    return match[1] if match else None
+
+
+def without_volts(text: str) -> str:
+    """A name without the volts that it ends with, which are its unit: 'probes x volt' is as 'probes x', in volts."""
+    return _VOLTS_AT_END.sub("", text.strip())
 
 
 def without_labels(name: str) -> str:

@@ -11,7 +11,6 @@ from thermodata.draft.signals.numerals import numeral_question
 from thermodata.draft.signals.quantity.by_name import by_name
 from thermodata.draft.signals.quantity.by_unit import by_unit
 from thermodata.draft.signals.quantity.guessed import NO_READING, NOTHING, OF_NONE, Guess
-from thermodata.draft.signals.told_units.unit_at_end import without_volts
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.listed import holds_word
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in
@@ -30,7 +29,7 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
     if dtype == "str":
         return _of_words(own, unit, bare, values)
     if not bare:
-        own, text = without_volts(own), without_volts(text)
+        own, text = units.without_volts(own), units.without_volts(text)
     named = quantities_in(own) or quantities_in(text)
     foreign = foreign_in(own)
     if dtype == "bool":

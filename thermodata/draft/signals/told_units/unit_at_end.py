@@ -23,7 +23,6 @@ _BESIDE: Mapping[str, Mapping[str, str]] = {
 _LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
 _INCH_AT_END = re.compile(r"(?<=[^_\s])(?:\s+|, ?)(in|ft)\.?$")  # 'X pos in', 'Z Height, in.'
 _INPUT_AT_END = re.compile(r"(?<=[^_.,\s])(?:_|\s+)in$")
-_VOLTS_AT_END = re.compile(r"(?<=[^_.\s])[_.\s]+(volts?)$", re.IGNORECASE)
 _COLDEST_K = 250.0
 _SHARE_AT_END = re.compile(r"(?<=[^_.\s])[_.\s](pu|p\.u\.|frac|fract|fraction|ratio)$", re.IGNORECASE)
 _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
@@ -36,17 +35,6 @@ _OR_NUMBER = re.compile(r"[_.\s]1_s$")  # 'speed_1_s': turns a second, or what i
 # what two letters in lower case, or longer words, say beside a unit: 'pressure_at', the foot of a column
 _SHORT = ("hz", "cm", "uv", "kv")
 _WORDS = ("foot", "feet", "turn", "count")
-
-
-def volts_at_end(name: str) -> str | None:
-    """The volts that a name ends with as a word: 'x_volt' -> 'volt'. Not that of 'Volt', which is its whole name."""
-    match = _VOLTS_AT_END.search(name.strip())
-    return match[1] if match else None
-
-
-def without_volts(text: str) -> str:
-    """A name without the volts that it ends with, which are its unit: 'probes x volt' is as 'probes x', in volts."""
-    return _VOLTS_AT_END.sub("", text.strip())
 
 
 def unit_of_quantity(name: str, quantity: str | None, values: Values | None) -> str | None:
