@@ -4,12 +4,16 @@ these do not agree, or nothing tells, they are asked."""
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import pytest
 
+from thermodata.draft.campaign.drafted_tests import _length_s
 from thermodata.draft.campaign.parts import DraftSource
+from thermodata.draft.files.described_file import sampled_file
+from thermodata.draft.files.file_question import FileQuestion
 from thermodata.draft.make import draft_files
 
 ORDERS = {"dmy": "%d/%m/%Y", "mdy": "%m/%d/%Y"}
@@ -172,3 +176,17 @@ def test_am_and_pm_of_dates_are_no_evidence(tmp_path: Path, day: int) -> None:
     (tmp_path / "b.csv").write_text("\n".join([text[0], *stamped, ""]), "utf-8")
     (source,) = drafted(tmp_path).values()
     assert source.table == {"time": {"format": "unknown" if day == 3 else "dmy"}}
+
+
+def test_a_test_over_midnight_has_no_length_while_its_days_are_asked(tmp_path: Path) -> None:
+    log(tmp_path / "a.csv", datetime(2025, 11, 16, 23, 30), ORDERS["mdy"])
+    log(tmp_path / "b.csv", datetime(2025, 11, 16, 8), ORDERS["mdy"])
+    over, within = (sampled_file(tmp_path, PurePosixPath(name)) for name in ("a.csv", "b.csv"))
+    assert over is not None
+    assert within is not None
+    order = FileQuestion("format of the dates: dmy or mdy?", {"time": {"format": "unknown"}})
+    asked, asked_within = replace(over, asked=(order,)), replace(within, asked=(order,))
+    assert _length_s([[asked]], None) is None
+    assert _length_s([[asked], [over]], None) == 119 * 60.0, "by the log whose days are known"
+    assert _length_s([[asked_within]], None) == 119 * 60.0
+    assert _length_s([[replace(over, asked=(replace(order, told=True),))]], None) == 119 * 60.0

@@ -29,7 +29,10 @@ from thermodata.draft.times.clocks import Alignment, Named
 from thermodata.draft.times.one_clock import on_one_clock
 from thermodata.draft.words.numbered import without_number
 from thermodata.draft.words.roles import said_by_list
+from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.store.catalogue.conditions import plain_unit, plain_value
+
+_DAY_NS = 86_400 * 10**9
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,13 +124,24 @@ def _drafted(
 
 
 def _length_s(logs: Sequence[Sequence[RawFile]], window: tuple[float, float] | None) -> float | None:
-    """Of the longest of a test's logs, whose clocks may differ; None where a file was not read to its end. logs: the
+    """Of the longest of a test's logs, whose clocks may differ; None where a file was not read to its end, or
+    nobody knows its days. logs: the
     files of each source, which are parts of one."""
     if window is not None:
         return window[1] - window[0]
-    spans = [_span_s(files) for files in logs]
+    dated = [files for files in logs if not _may_be_of_other_days(files)]
+    if logs and not dated:
+        return None
+    spans = [_span_s(files) for files in dated]
     known = [s for s in spans if s is not None]
     return max(known) if known and len(known) == len(spans) else None
+
+
+def _may_be_of_other_days(files: Sequence[RawFile]) -> bool:
+    """Whether a log goes from one day into another while it is asked which of its numbers are days and which months."""
+    open_order = any(a.declare.get("time", {}).get("format") == UNKNOWN and not a.told for f in files for a in f.asked)
+    times = [t for f in files for t in (f.sample.first_ns, f.sample.last_ns) if t is not None]
+    return open_order and bool(times) and min(times) // _DAY_NS != max(times) // _DAY_NS
 
 
 def _span_s(files: Sequence[RawFile]) -> float | None:
