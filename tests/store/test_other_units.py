@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.calibration.between_tests.levels import Course, Levels
+from thermodata.plugin import Float1D
 from thermodata.store.ingest.told.channels.other_units import other_units
 
 
@@ -79,3 +80,50 @@ def test_one_of_several_temperatures_that_alone_has_others_to_compare_is_left() 
     """The other sensors of that test are of it alone, and may tell of a machine that was warm."""
     tests = [levels("t0", T_b=22.0), levels("t1", T_b=24.0), levels("t2", T_b=73.0, T_hall=21.0)]
     assert other_units(tests) == []
+
+
+def parts(test: str, warm: bool = False, **courses: Float1D | float) -> Levels:
+    t = np.linspace(0.0, 3600.0, 33)
+    heated = 6.0 * np.sin(np.pi * t / 3600.0)
+    own = {f"T_{i}": Course(t, 20.0 + i / 2 + heated / (i + 2)) for i in range(4)}
+    return Levels(test, None, None, own | {n: Course(t, x + heated) for n, x in courses.items()}, warm=warm)
+
+
+SOUND = [parts("t0", T_nut=21.0), parts("t1", T_nut=22.0), parts("t2", T_nut=20.5)]
+COOLING = 44.0 * np.exp(-np.linspace(0, 1.5, 33))
+
+
+@pytest.mark.parametrize(
+    ("last", "told"),
+    [
+        (parts("t3", T_nut=70.0), ["t3"]),
+        (parts("t3", T_nut=22.0), []),
+        (parts("t3", T_nut=44.0), []),  # warmer, but not as degF are
+        (parts("t3", T_nut=92.0), []),
+        (parts("t3", T_nut=24.0 + COOLING), []),  # warm before its test: it cools towards the others
+        (parts("t3", T_nut=66.0 + COOLING), []),  # its coldest alone would be as ever
+        (parts("t3", warm=True, T_nut=70.0), []),  # somebody's word
+    ],
+)
+def test_one_column_in_fahrenheit_among_others_that_are_as_ever_is_told(last: Levels, told: list[str]) -> None:
+    losses = other_units([*SOUND, last])
+    assert [x["test"] for x in losses] == told
+    assert all("channels: {T_nut: {unit: degF, instead_of: degC}}" in str(x["reason"]) for x in losses)
+
+
+def test_several_columns_in_fahrenheit_are_one_line_and_no_measure_of_each_other() -> None:
+    two = [parts(f"t{i}", T_nut=x, T_motor=x + 2.0) for i, x in enumerate((21.0, 22.0, 20.5, 70.0))]
+    [loss] = other_units(two)
+    assert str(loss["reason"]).startswith("T_nut, T_motor: in t3")
+
+
+def test_one_column_is_not_told_without_other_tests_and_temperatures_to_compare() -> None:
+    last = parts("t3", T_nut=70.0)
+    assert other_units([SOUND[0], last]) == []
+    few = [Levels(t.test, None, None, {n: t.series[n] for n in ("T_0", "T_1", "T_nut")}) for t in (*SOUND, last)]
+    assert other_units(few) == []
+
+
+def test_a_part_that_is_as_hot_in_other_tests_is_not_told() -> None:
+    """Held against all that was seen of it: a motor that once ran 50 K above the others may do so again."""
+    assert other_units([*SOUND, parts("t3", T_nut=70.0), parts("t4", T_nut=20.0 + 50.0 * np.linspace(0, 1, 33))]) == []

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from thermodata.calibration.between_tests.apart_in_fahrenheit import as_ever_in_fahrenheit
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.ingest.told.losses import Losses, loss_row
@@ -46,25 +47,45 @@ def other_units(tests: Sequence[Levels]) -> Losses:
             if abs(abs(shift) - ZERO_K) < APART_K:
                 shifted.setdefault(test, {})[name] = shift
     losses = [loss_row(_shift_sentence(test, shifts), test=test) for test, shifts in shifted.items()]
-    return losses + [loss_row(_in_fahrenheit(test, names), test=test) for test, names in _warmer_throughout(tests)]
+    found = _coldest_in_fahrenheit(tests)
+    whole = _warmer_throughout(tests, found)
+    losses += [loss_row(_in_fahrenheit(test, names), test=test) for test, names in whole]
+    told = {test for test, _ in whole}
+    some = as_ever_in_fahrenheit(tests, {t: names for t, names in found.items() if t not in told})
+    return losses + [loss_row(_alone_in_fahrenheit(test, names), test=test) for test, names in some.items()]
 
 
-def _warmer_throughout(tests: Sequence[Levels]) -> list[tuple[str, list[str]]]:
-    """(test, its temperatures) where all of them stand as Fahrenheit's do to degrees in other tests: a part that was
-    warm before leaves the air around it as it is. Of a single one nothing but `start_state: warm` says that."""
+def _coldest_in_fahrenheit(tests: Sequence[Levels]) -> dict[str, list[str]]:
+    """Test -> its temperatures whose coldest reading is that of other tests in Fahrenheit."""
     coldest: dict[str, dict[str, float]] = {}
     for levels in tests:
         for name, course in levels.series.items():
             if course.quantity == "temperature" and np.isfinite(course.sound).any() and not levels.warm:
                 coldest.setdefault(name, {})[levels.test] = float(np.nanmin(course.sound))
-    found = {name: set(fahrenheit_among(of)) for name, of in coldest.items() if len(of) > 1}
+    found: dict[str, list[str]] = {}
+    for name, of in coldest.items():
+        for test in fahrenheit_among(of):
+            found.setdefault(test, []).append(name)
+    return found
+
+
+def _warmer_throughout(tests: Sequence[Levels], found: Mapping[str, Sequence[str]]) -> list[tuple[str, list[str]]]:
+    """(test, its temperatures) where all that other tests have, too, stand as Fahrenheit's do to degrees there: a part
+    that was warm before leaves the air around it as it is. Of a single one nothing but `start_state: warm` says that.
+    found: see `_coldest_in_fahrenheit`."""
+    with_values = {t.test: _with_values(t) for t in tests}
     told = []
     for levels in tests:
-        own = [name for name in found if levels.test in coldest[name]]
+        elsewhere = {n for t in tests if t is not levels and not t.warm for n in with_values[t.test]}
+        own = [name for name in with_values[levels.test] if name in elsewhere]
         alone = len(own) == 1 and sum(c.quantity == "temperature" for c in levels.series.values()) == 1
-        if (len(own) >= _FEWEST or alone) and all(levels.test in found[name] for name in own):
+        if (len(own) >= _FEWEST or alone) and set(own) == set(found.get(levels.test, ())):
             told.append((levels.test, own))
     return told
+
+
+def _with_values(levels: Levels) -> list[str]:
+    return [n for n, c in levels.series.items() if c.quantity == "temperature" and np.isfinite(c.sound).any()]
 
 
 def _in_fahrenheit(test: str, names: Sequence[str]) -> str:
@@ -73,6 +94,16 @@ def _in_fahrenheit(test: str, names: Sequence[str]) -> str:
         f"{shown}: in {test} the coldest readings are to those of the other tests as degF are to degC. If that file is "
         f"in degF, write its unit into the file, or under the test: channels: {{{names[0]}: {{unit: degF}}}}"
         + ("; if it was warm before its test: start_state: warm" if len(names) == 1 else "")
+    )
+
+
+def _alone_in_fahrenheit(test: str, names: Sequence[str]) -> str:
+    written = ", ".join(f"{name}: {{unit: degF, instead_of: degC}}" for name in names)
+    return (
+        f"{with_count(names, 6)}: in {test} the readings lie beyond all that they are beside the other temperatures in "
+        "the other tests, and where they ever were once they are taken for degF, not degC. If that column is in degF, "
+        f"write under the test: channels: {{{written}}}; if what it measures was warm before the test: "
+        "start_state: warm"
     )
 
 
