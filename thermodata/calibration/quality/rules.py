@@ -23,6 +23,7 @@ from thermodata.calibration.quality.ends.limit import (
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
 from thermodata.calibration.quality.sudden.edges import without_pauses
+from thermodata.calibration.quality.sudden.lone_step import lone_step
 from thermodata.calibration.quality.sudden.spike import spikes
 from thermodata.calibration.quality.sudden.step import Step, offset_steps, stood_before
 from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, rests
@@ -30,7 +31,7 @@ from thermodata.calibration.quality.value import RunStats, held_runs
 from thermodata.plugin import Bool1D
 from thermodata.schema.flag import NOT_FLAGGED, Flag
 from thermodata.schema.units.quantity import STATES
-from thermodata.schema.words.places import is_at_tool
+from thermodata.schema.words.places import is_around, is_at_tool, is_fluid
 
 # Quantities which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
@@ -217,6 +218,19 @@ def steps_and_stays(seen: Marked) -> None:
             seen.mark_rows(Flag.HELD, since, step.start, f"on one tread, then {why}")
 
 
+def steps_once_by_little(seen: Marked) -> None:
+    """A temperature of a body that steps once, by less than heat could do in the time, but at once."""
+    column = seen.column
+    if seen.stats is None or column.quantity != "temperature" or seen.has(Flag.OFFSET).any():
+        return
+    if is_at_tool(column.at) or is_around(column.at) or is_fluid(column.at):
+        return
+    others = (np.asarray(values, dtype=np.float64) for values in seen.beside("temperature").values())
+    step = lone_step(seen.x, seen.stream.t_ns, seen.flags, seen.stream.time.flags, seen.stats, others)
+    if step is not None and not seen.stream.zeros[step.start :].all():
+        seen.mark_rows(Flag.OFFSET, step.start, step.stop, f"a step of {step.size:+.1f} K {step.how}")
+
+
 RULES: tuple[Rule, ...] = (
     no_number_is_missing,
     a_row_of_zeros_is_not_measured,
@@ -230,4 +244,5 @@ RULES: tuple[Rule, ...] = (
     the_log_repeats_its_last_row,
     leaves_for_a_few_samples,
     steps_and_stays,
+    steps_once_by_little,
 )

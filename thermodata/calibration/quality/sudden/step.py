@@ -26,6 +26,7 @@ _AROUND = 20  # samples that tell a level
 _BACK = 0.3  # of a step: what comes so near to the level before has come back
 _STOOD_S = 2 * 3600.0  # a coarse reading that stays on one tread for so long
 _MOVED_K = 5.0  # while a neighbour moves by so much
+IGNORED = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD  # readings that tell nothing of a step
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +46,9 @@ def offset_steps(x: Float1D, t_ns: Int1D, flags: Array, of_time: Array, own: Run
 
     x: shape (n,), degC. t_ns: shape (n,). flags: of the column so far; of_time: of the times; uint16, shape (n,).
     """
-    ignored = Flag.SPIKE | Flag.STUCK | Flag.OUT_OF_RANGE | Flag.HELD
-    if own.leap <= _OFFSET_K / 2 and not (flags & np.uint16(ignored)).any():
+    if own.leap <= _OFFSET_K / 2 and not (flags & np.uint16(IGNORED)).any():
         return
-    rows = np.flatnonzero((flags & np.uint16(ignored)) == 0)
+    rows = np.flatnonzero((flags & np.uint16(IGNORED)) == 0)
     if len(rows) < 2 * _AROUND:
         return
     y, t = x[rows], t_ns[rows]
@@ -56,11 +56,11 @@ def offset_steps(x: Float1D, t_ns: Int1D, flags: Array, of_time: Array, own: Run
     moves = np.sort(np.abs(d[(d != 0) & np.isfinite(d)]))
     if len(moves) <= _LEAST_SMALL:
         return
-    least = _least(moves)
+    least = least_step(moves, _OFFSET_K)
     gap = ((of_time[rows[1:]] & int(Flag.GAP)) != 0) | (np.diff(rows) > 5)
     open_at, looked, size, level, how = -1, 0, 0.0, 0.0, ""
     for j in np.flatnonzero(np.abs(d) > least / 2).tolist():
-        if open_at >= 0 and _comes_back(y[looked : j + 1], level, size):
+        if open_at >= 0 and comes_back(y[looked : j + 1], level, size):
             open_at = -1
         looked = j + 1
         if open_at >= 0:
@@ -79,7 +79,7 @@ def offset_steps(x: Float1D, t_ns: Int1D, flags: Array, of_time: Array, own: Run
             open_at, size = j + 1, float(d[j])
             level = float(np.median(y[max(0, j - _AROUND) : j + 1]))
             how = f"over a pause of {pause:.4g} s" if gap[j] else "within one sample"
-    if open_at >= 0 and not _comes_back(y[looked:], level, size):
+    if open_at >= 0 and not comes_back(y[looked:], level, size):
         yield Step(int(rows[open_at]), len(x), size, how)
 
 
@@ -104,10 +104,10 @@ def stood_before(x: Float1D, t_ns: Int1D, step: Step, own: RunStats, neighbours:
     return start if max(moved, default=0.0) >= _MOVED_K else None
 
 
-def _least(moves: Float1D) -> float:
-    """The smallest step [K] that stands out of a reading's own changes, shape (k,), sorted."""
+def least_step(moves: Float1D, least_k: float) -> float:
+    """The smallest step [K] that stands out of a reading's own changes, shape (k,), sorted; least_k at least."""
     finest, step = moves[len(moves) // 100], moves[len(moves) // 2]
-    return float(max(_OFFSET_K, _TREADS * finest if step < 2.5 * finest else _USUAL_CHANGES * step))
+    return float(max(least_k, _TREADS * finest if step < 2.5 * finest else _USUAL_CHANGES * step))
 
 
 def _goes_on(y: Float1D, j: int, size: float) -> bool:
@@ -118,7 +118,7 @@ def _goes_on(y: Float1D, j: int, size: float) -> bool:
     return bool((further - usual) * np.sign(size) > _GOES_ON * abs(size))
 
 
-def _comes_back(after: Float1D, level: float, size: float) -> bool:
+def comes_back(after: Float1D, level: float, size: float) -> bool:
     """Whether what follows a step returns, without a step, to the level before it: by medians of _AROUND samples."""
     whole = after[: len(after) // _AROUND * _AROUND].reshape(-1, _AROUND)
     return bool((np.abs(np.median(whole, axis=1) - level) < _BACK * abs(size)).any()) if len(whole) else False
