@@ -204,7 +204,7 @@ def _sources_by_test(store: Store, campaign: str) -> dict[str, list[dict[str, An
             for what in (
                 "source where campaign = ?",
                 "quality_event where campaign = ? and flag = 'gap'",
-                "file where campaign = ? and layer = 'raw'",
+                "file where campaign = ?",
             )
         )
     return with_lengths(with_pauses(sources, events), files)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
@@ -56,14 +56,26 @@ def with_pauses(rows: Rows, events: Rows) -> dict[str, list[dict[str, Any]]]:
 
 
 def with_lengths(rows: Rows, files: Rows) -> dict[str, list[dict[str, Any]]]:
-    """The rows, each with how long its files last. files: test -> rows of the table `file`."""
+    """The rows, each with how long its files last. files: test -> rows of the table `file`.
+
+    A clock that was set back goes through some times twice: what follows was joined, and lasts as long as the rows that
+    were kept say, where that is longer."""
     found: dict[str, list[dict[str, Any]]] = {}
     for test, of_test in rows.items():
         raws: dict[tuple[str, str], list[RawStream]] = defaultdict(list)
+        kept: Counter[tuple[str, str]] = Counter()
         for file in files.get(test, ()):
+            of = file["source"], file["stream"]
             if file["layer"] == "raw":
-                raws[file["source"], file["stream"]].append(RawStream.from_row(file))
+                raws[of].append(RawStream.from_row(file))
+            elif file["layer"] == "tidy":
+                kept[of] += file["rows"] or 0
         lengths = {of: lasts_s for of, some in raws.items() if (lasts_s := _lasts_s(some)) is not None}
+        back = {of for of in lengths if any(r.ordered is False and not r.newest_first for r in raws[of])}
+        for r in of_test:
+            of = r["source"], r["stream"]
+            if of in back and r["step_s"]:
+                lengths[of] = max(lengths[of], r["step_s"] * (kept[of] - 1) + r.get(PAUSED_S, 0.0))
         found[test] = [{**r, LASTS_S: lengths.get((r["source"], r["stream"]))} for r in of_test]
     return found
 
