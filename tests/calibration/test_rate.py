@@ -11,6 +11,8 @@ from thermodata.calibration.expression.evaluation import rate_of
 from thermodata.calibration.expression.parser import parse
 from thermodata.calibration.rate import NONE, PAUSES, lost_in_turns, rates, stood_in_pauses, stretches, usual_step_ns
 from thermodata.errors import UsageError
+from thermodata.plugin import Float1D
+from thermodata.store.tidy.values.rated import LEAST_LEG
 
 S = 10**9
 LONGEST = 3_500_000_000
@@ -79,21 +81,52 @@ def test_a_log_that_goes_on_from_where_it_was_stood_in_its_pauses() -> None:
     assert not stood_in_pauses(t_ns[:1], rests[:1], LONGEST)
 
 
+def lost_of(t_s: Float1D, x: Float1D, speed: float) -> float:
+    """What the rates of a position lack of an even speed."""
+    t_ns = np.round(t_s * S).astype(np.int64)
+    return 1 - float(np.abs(rates(t_ns, x, *stretches(t_ns, x, longest_ns=LONGEST))).mean()) / speed
+
+
 @pytest.mark.parametrize("stroke_s", [2.2, 4.7, 11.3, 31.7])
 def test_what_turns_between_samples_is_told(stroke_s: float) -> None:
     t_s = np.arange(0, 4000.0)
     x = 300 * np.abs(t_s / stroke_s % 2 - 1)
-    t_ns = (t_s * S).astype(np.int64)
-    found = rates(t_ns, x, *stretches(t_ns, x, longest_ns=LONGEST))
-    lost = 1 - np.abs(found).mean() / (300 / stroke_s)
-    assert lost_in_turns(t_ns, x, LONGEST) == pytest.approx(lost, rel=0.15)
+    lost, leg = lost_in_turns((t_s * S).astype(np.int64), x, LONGEST)
+    assert lost == pytest.approx(lost_of(t_s, x, 300 / stroke_s), rel=0.15)
+    assert leg == pytest.approx(stroke_s, rel=0.1)
+
+
+@pytest.mark.parametrize(("late", "lost"), [(0.0, 0.0), (0.1, 0.1), (0.25, 0.25), (0.5, 0.5), (0.75, 0.25)])
+@pytest.mark.parametrize("stroke_s", [2.0, 4.0])
+def test_an_axis_that_keeps_step_with_its_logger_loses_what_its_turns_are_late(
+    late: float, lost: float, stroke_s: float
+) -> None:
+    """From nothing to one stretch in each stroke, which only where the turns lie tells."""
+    t_s = np.arange(0, 4000.0)
+    x = 300 * np.abs((t_s + late) / stroke_s % 2 - 1)
+    told, leg = lost_in_turns((t_s * S).astype(np.int64), x, LONGEST)
+    assert told == pytest.approx(2 * lost / stroke_s, abs=0.01)
+    assert told == pytest.approx(lost_of(t_s, x, 300 / stroke_s), abs=0.01)
+    assert leg == pytest.approx(stroke_s, rel=0.01)
+
+
+@pytest.mark.parametrize("stroke_s", [1.2, 1.7])
+def test_strokes_of_less_than_two_samples_tell_no_speed(stroke_s: float) -> None:
+    t_s = np.arange(0, 4000.0)
+    assert lost_in_turns((t_s * S).astype(np.int64), 300 * np.abs(t_s / stroke_s % 2 - 1), LONGEST)[1] < LEAST_LEG
+
+
+def test_what_rests_where_it_turns_loses_nothing() -> None:
+    way = np.concatenate([np.arange(0, 300.0, 30), np.full(5, 300.0), np.arange(300, 0, -30.0), np.zeros(5)])
+    x = np.tile(way, 50)
+    assert lost_in_turns(np.arange(len(x)) * S, x, LONGEST)[0] == 0
 
 
 def test_nothing_is_lost_of_what_does_not_move() -> None:
     noise = np.random.default_rng(1).normal(0, 0.001, 500)
     t_ns = np.arange(500) * S
-    assert lost_in_turns(t_ns, np.where(t_ns < 250 * S, 0.0, 100.0) + noise, LONGEST) == 0
-    assert lost_in_turns(t_ns[:0], noise[:0], LONGEST) == 0
+    assert lost_in_turns(t_ns, np.where(t_ns < 250 * S, 0.0, 100.0) + noise, LONGEST) == (0, np.inf)
+    assert lost_in_turns(t_ns[:0], noise[:0], LONGEST) == (0, np.inf)
 
 
 @given(st.data())

@@ -74,8 +74,7 @@ def test_an_axis_that_goes_to_and_fro_has_its_feed(tmp_path: Path) -> None:
     _write(tmp_path / "day_plc.csv", t_s, _to_and_fro(t_s))
     store, summary = _ingest(tmp_path)
     assert not summary.losses
-    (told,) = [n for n in summary.notes if "v: the axis often turns" in n]
-    assert "about 6 % too small" in told
+    assert not [n for n in summary.notes if "too small" in n], "it turns at its samples"
     found = _stored(store)
     np.testing.assert_allclose(np.abs(found["value"]), 3.0, rtol=1e-6)
     np.testing.assert_allclose(found["value"][:8], -3.0)
@@ -84,6 +83,19 @@ def test_an_axis_that_goes_to_and_fro_has_its_feed(tmp_path: Path) -> None:
     np.testing.assert_allclose(test.values["v"], 3.0, rtol=1e-6)  # the mean of its size
     ingest(store, tmp_path / "campaign.yaml")
     assert trace(store, "lab", "day", "v")["derive"] == "rate(x_pos)"
+
+
+@pytest.mark.parametrize(("late_s", "slow"), [(0.25, 1.0), (0.5, 1.0), (0.5, 5.0)])
+def test_what_is_lost_where_an_axis_turns_is_told_of_its_test(tmp_path: Path, late_s: float, slow: float) -> None:
+    t_s = np.arange(0, 600.0)
+    _write(tmp_path / "day_plc.csv", t_s, _to_and_fro((t_s + late_s) * slow))
+    store, summary = _ingest(tmp_path)
+    (told,) = [n for n in summary.notes if "too small" in n]
+    if slow > STROKE_S / 2:
+        assert "nobody can tell" in told
+        return
+    lost = 1 - np.nanmean(np.abs(_stored(store)["value"])) / (3.0 * slow)
+    assert f"in this test {100 * lost:.0f} % too small" in told
 
 
 def test_a_rate_traces_to_the_two_rows_that_it_is_of(tmp_path: Path) -> None:

@@ -68,16 +68,33 @@ def stood_in_pauses(t_ns: Int1D, values: Float1D, longest_ns: int) -> bool:
     return step <= SMALL * float(np.ptp(values[there])) and goes_on >= USUAL
 
 
-def lost_in_turns(t_ns: Int1D, values: Float1D, longest_ns: int) -> float:
-    """How much of the size of its rate is lost where it turns between two samples, as a share of all, at an even speed:
-    half of each such stretch, on the average. Shapes (n,), times non-decreasing."""
+def lost_in_turns(t_ns: Int1D, values: Float1D, longest_ns: int) -> tuple[float, float]:
+    """(how much of the size of its rate is lost where it turns between two samples, as a share of all; over how many
+    stretches it goes one way before it turns, inf where it never does). Shapes (n,), times non-decreasing.
+
+    A stretch in which it turns lies between two that go opposite ways; what it is slower than these is lost, if the
+    speed is even and it does not rest where it turns. So it is the most that can be lost. Ways of less than two
+    stretches have none without a turn: then nothing tells it.
+    """
     there = np.flatnonzero(np.isfinite(values))
     times, first = np.unique(t_ns[there], return_index=True)
     x = values[there[first]]
-    steps = np.where(np.diff(times) <= longest_ns, np.diff(x), 0.0)
+    apart = np.diff(times).astype(np.float64)
+    steps = np.where(apart <= longest_ns, np.diff(x), 0.0)
     ways = np.sign(steps) * (np.abs(steps) > STILL * float(np.ptp(x))) if len(x) else steps
-    moving, turns = np.count_nonzero(ways), np.count_nonzero(ways[1:] * ways[:-1] < 0)
-    return 0.5 * turns / moving if moving else 0.0
+    if np.count_nonzero(ways) < 2:
+        return 0.0, np.inf
+    speeds = np.abs(steps * np.abs(ways)) / np.maximum(apart, 1.0)
+    full = (speeds[:-2] + speeds[2:]) / 2
+    between = ways[:-2] * ways[2:] < 0
+    lost = np.where(between, np.maximum(full - speeds[1:-1], 0.0), 0.0) * apart[1:-1]
+    # it turns within a stretch between two that go opposite ways, or at the sample where these meet
+    goes = np.flatnonzero(ways)
+    turned = ways[goes[1:]] * ways[goes[:-1]] < 0
+    turns = int(np.count_nonzero(turned & (np.diff(goes) <= 2)))
+    active = len(goes) + int(np.count_nonzero(between & (ways[1:-1] == 0)))
+    moved = float(np.sum(speeds * apart)) + float(lost.sum())
+    return float(lost.sum()) / moved, active / turns if turns else np.inf
 
 
 def usual_step_ns(t_ns: Int1D, values: Float1D) -> int:

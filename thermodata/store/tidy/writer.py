@@ -139,7 +139,8 @@ def _as_written(series: TestSeries, member: Member, here: Sequence[Bound], rows:
     asked_of = [b.name for b in here if not b.on_change and series.by_hand(b) == "asked"]
     no_rate = [b.name for b in held if b.name not in by_hand]
     of_hands = told(no_rate) + told(by_hand, by_hand=True) + tuple(asked(n, rows) for n in asked_of)
-    return of_hands + told_of_rates(rests) + told_of_turns({b.name: series.lost_in_turns(b) for b in here})
+    paces = {b.name: pace for b in here if (pace := series.pace_of_rates(b)) is not None}
+    return of_hands + told_of_rates(rests) + told_of_turns(paces)
 
 
 def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> None:

@@ -18,6 +18,7 @@ from thermodata.store.tidy.rows.timeline import Timeline
 
 PERIODS = 3.5  # that two samples may be apart, as bins are filled over
 TOLD = 0.05  # of the size of a rate
+LEAST_LEG = 1.9  # stretches that an axis goes one way: of fewer none is without a turn, and nothing tells its speed
 MOVES_NS = 10 * 10**9  # so far apart rows of a log written on change are no course of a movement
 
 
@@ -36,11 +37,12 @@ class Series(Protocol):
 @dataclass(frozen=True, slots=True)
 class Pace:
     """on_change: whether a value stands until the next row; longest_ns: between two samples that tell of a movement;
-    lost: of the size of the rate, in turns between two samples, as a share."""
+    lost, leg: see `lost_in_turns`."""
 
     on_change: bool
     longest_ns: int
     lost: float = 0.0
+    leg: float = np.inf
 
 
 def pace_of(series: Series, bound: Bound) -> Pace:
@@ -57,7 +59,7 @@ def pace_of(series: Series, bound: Bound) -> Pace:
     longest_ns = int(PERIODS * usual_step_ns(t_ns, values))
     if not bound.is_said and stood_in_pauses(t_ns, values, max(longest_ns, MOVES_NS)):
         return Pace(True, MOVES_NS)
-    return Pace(False, longest_ns, lost_in_turns(t_ns, values, longest_ns))
+    return Pace(False, longest_ns, *lost_in_turns(t_ns, values, longest_ns))
 
 
 def rate_on_rows(series: Series, bound: Bound, pace: Pace, start: int, stop: int) -> tuple[Array, Array]:
@@ -112,11 +114,22 @@ def told_of_rates(names: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def told_of_turns(lost: Mapping[str, float]) -> tuple[str, ...]:
-    """What is said of channels that take the rate of what turns so often that much of it is lost; nothing of others."""
-    return tuple(
-        f"{name}: the axis often turns between two of its samples, which makes the size of its rate about "
-        f"{100 * share:.0f} % too small: its gain comes out larger by that; log the position faster"
-        for name, share in lost.items()
-        if share > TOLD
-    )
+def told_of_turns(paces: Mapping[str, Pace]) -> tuple[str, ...]:
+    """What is said of channels that take the rate of what turns so often that much of it is lost in this test, or may
+    be; nothing of others. paces: of the position of each."""
+    said = []
+    for name, pace in paces.items():
+        if pace.leg < LEAST_LEG:
+            said.append(
+                f"{name}: the axis goes one way for {pace.leg:.2g} samples before it turns: how fast it went between "
+                "them nobody can tell; the size of its rate is too small by a share that differs from test to test, "
+                "which no gain takes up; log the position faster"
+            )
+        elif pace.lost > TOLD:
+            said.append(
+                f"{name}: the axis turns between two of its samples, after {pace.leg:.2g} of them, which makes the "
+                f"size of its rate in this test {100 * pace.lost:.0f} % too small, or less where it rests as it turns; "
+                "in tests whose turns fall otherwise it is another share, which no gain takes up; log the position "
+                "faster"
+            )
+    return tuple(said)

@@ -17,7 +17,7 @@ from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.rows.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
 from thermodata.store.tidy.rows.timeline import Timeline, given_timeline
 from thermodata.store.tidy.values.chunk import Chunk
-from thermodata.store.tidy.values.rated import Pace, pace_of, rate_on_rows, rows_of_rate
+from thermodata.store.tidy.values.rated import LEAST_LEG, Pace, pace_of, rate_on_rows, rows_of_rate
 
 Member = tuple[str, str]
 _SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length
@@ -113,10 +113,11 @@ class TestSeries:
         stream; both of shape (stop - start,)."""
         return rate_on_rows(self, bound, self._pace(bound), start, stop)
 
-    def lost_in_turns(self, bound: Bound) -> float:
-        """How much of the size of the rates that a derived channel takes is lost where an axis turns, as a share."""
+    def pace_of_rates(self, bound: Bound) -> Pace | None:
+        """Of the rates that a derived channel takes that which loses most where its axis turns; None of no rate."""
         rated = derive.rated(bound.channel.derive) if bound.channel.derive is not None else ()
-        return max((self._pace(self.plan.bound[n]).lost for n in rated), default=0.0)
+        paces = [self._pace(self.plan.bound[n]) for n in rated]
+        return max(paces, key=lambda pace: (pace.leg < LEAST_LEG, pace.lost), default=None)
 
     def rows_of_rate(self, bound: Bound, row: int) -> list[int]:
         """The rows of its stream between which its rate on a row was taken."""
