@@ -88,6 +88,15 @@ class Stream:
         return last_row_repeats(self.t_ns, told)
 
     @cached_property
+    def filled(self) -> Bool1D:
+        """Where any column of numbers has a value, shape (n,)."""
+        found: Bool1D = np.zeros(len(self.t_ns), dtype=bool)
+        for column in self.columns.values():
+            if column.is_float:
+                found |= np.isfinite(column.values)
+        return found
+
+    @cached_property
     def zeros(self) -> Bool1D:
         """See `rows_of_zeros`."""
         numbers = {k: c for k, c in self.columns.items() if c.is_number and c.quantity not in STATES}

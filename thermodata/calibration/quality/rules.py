@@ -22,6 +22,7 @@ from thermodata.calibration.quality.ends.limit import (
 )
 from thermodata.calibration.quality.event import QualityEvent
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
+from thermodata.calibration.quality.own_beat import rows_of_others
 from thermodata.calibration.quality.sudden.edges import without_pauses
 from thermodata.calibration.quality.sudden.lone_step import lone_step
 from thermodata.calibration.quality.sudden.spike import spikes
@@ -44,10 +45,15 @@ Rule = Callable[[Marked], None]
 
 
 def no_number_is_missing(seen: Marked) -> None:
-    """A value that is no number; the first sample behind it is the first after a gap."""
+    """A value that is no number; the first sample behind it is the first after a gap. In a row of another logger, whose
+    columns stand beside this one, none was measured."""
     if not seen.column.is_float or (seen.stats is not None and np.isfinite(seen.stats.leap)):
         return
     missing = ~np.isfinite(seen.column.values)
+    if missing.any():
+        others = rows_of_others(seen.stream.t_ns, ~missing, seen.stream.filled)
+        seen.flags[others] = (seen.flags[others] & ~np.uint16(Flag.OUT_OF_RANGE)) | np.uint16(Flag.NOT_MEASURING)
+        missing &= ~others
     if missing.any():
         seen.mark(Flag.OUT_OF_RANGE, missing, "no number")
         after = np.flatnonzero(missing[:-1] & ~missing[1:]) + 1
