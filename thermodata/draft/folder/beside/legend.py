@@ -120,7 +120,8 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
         among = [r for r in own if r in named or not (normal(r[key]) in tests or any(map(begins_with_a_time, r)))]
         words = {r[key].casefold() for r in named}
         again = {w for w, n in Counter(r[key].casefold() for r in named).items() if n > 1}
-        # a list of one or two says what signals are where it has nothing but these, and they are known parts
+        # a list of one or two says what signals are where it has nothing but these, and they are known parts: no names
+        # of other signals, as the head of a log has
         few = len(words) < _FEWEST and len(among) - len(named) <= 1
         least = 1 if few else _FEWEST
         if len(words) < max(least, (len(among) - 1) / 2) or len(again) * _ONCE > len(words):
@@ -129,7 +130,7 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
             continue
         for column in range(max(map(len, named))):
             said = of_names([(r[key], r[column]) for r in named if column < len(r)], _is_words)
-            if few and not all(_is_part(one.text) for one in said.values()):
+            if few and not all(_is_part(one.text) and word_of(one.text) not in names for one in said.values()):
                 continue
             if column != key and len(said) >= least and len({s.text for s in said.values()}) * 2 > len(said):
                 beside = [c for c in range(max(map(len, named))) if c not in (key, column)]
