@@ -10,12 +10,11 @@ good as one (RMS of their difference in that test under 0.5 K) can't be told and
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from loose_sensors import machines
+from loose_sensors import instead, machines
 from measure import table
 from threadpoolctl import threadpool_limits
 
@@ -81,7 +80,7 @@ def main() -> None:
         rows = [("as they hold", *counts(sound, broken))]
         for limit in given.limits:
             for value in LIMITS[limit]:
-                with instead(limit, value):
+                with instead(exchanged, limit, value):
                     rows.append((f"{limit} {value:g}", *counts(sound, broken)))
     print(table(["", "sound: told of", "apart by 0.5 K: right of", "less: told of", "another told beside"], rows))
 
@@ -96,17 +95,6 @@ def counts(sound: Sequence[Dataset], broken: Sequence[Made]) -> tuple[str, ...]:
         f"{sum(bool(told(m.data)) for m in near)} of {len(near)}",
         str(sum(bool(found - {(m.test, m.names)}) for m, found in answers)),
     )
-
-
-@contextmanager
-def instead(limit: str, value: float) -> Iterator[None]:
-    """A limit of `exchanged` in place of the one that holds."""
-    kept = getattr(exchanged, limit)
-    setattr(exchanged, limit, value)
-    try:
-        yield
-    finally:
-        setattr(exchanged, limit, kept)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from types import ModuleType
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -121,21 +122,21 @@ def main() -> None:
         print("|---" * (len(heads) + 1) + "|")
         for limit in given.limits:
             for value in LIMITS[limit]:
-                with instead(limit, value):
+                with instead(loose, limit, value):
                     counts = [sum(bool(loose.loose_sensors(d, "")) for d in some) for some in (sound, changed)]
                     counts += [sum(map(right, some)) for some in broken.values()]
                 print(f"| `{limit}` {value:g} | {' | '.join(map(str, counts))} |", flush=True)
 
 
 @contextmanager
-def instead(limit: str, value: float) -> Iterator[None]:
-    """A limit of `loose` in place of the one that holds."""
-    kept = getattr(loose, limit)
-    setattr(loose, limit, value)
+def instead(module: ModuleType, limit: str, value: float) -> Iterator[None]:
+    """A limit of a module in place of the one that holds."""
+    kept = getattr(module, limit)
+    setattr(module, limit, value)
     try:
         yield
     finally:
-        setattr(loose, limit, kept)
+        setattr(module, limit, kept)
 
 
 if __name__ == "__main__":

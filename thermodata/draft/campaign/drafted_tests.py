@@ -124,9 +124,8 @@ def _drafted(
 
 
 def _length_s(logs: Sequence[Sequence[RawFile]], window: tuple[float, float] | None) -> float | None:
-    """Of the longest of a test's logs, whose clocks may differ; None where a file was not read to its end, or
-    nobody knows its days. logs: the
-    files of each source, which are parts of one."""
+    """Of the longest of a test's logs, whose clocks may differ; None where a file was not read to its end, or nobody
+    knows its days. logs: the files of each source, which are parts of one."""
     if window is not None:
         return window[1] - window[0]
     dated = [files for files in logs if not _may_be_of_other_days(files)]

@@ -25,8 +25,8 @@ _MOST_STRETCHES = 50
 @dataclass(slots=True)
 class Timeline:
     """rows: how many. raws: (raw, what is added to its times [ns]) in file order. cut: (first, past-the-last) rows of
-    them that are left out, shape (k, 2). doubt: why the whole clock
-    is suspect. parts: what files have under other names, or in other units (`in_parts`).
+    them that are left out, shape (k, 2). doubt: why the whole clock is suspect. parts: what files have under other
+    names, or in other units (`in_parts`).
 
     Row numbers count in time order. Not shared between threads.
     """
