@@ -65,6 +65,23 @@ def test_what_counts_and_what_was_not_measured_stand_apart(build: Callable[[], A
     assert "a stop holds it" in told
 
 
+def test_the_worst_tests_of_a_cause_stand_first_and_no_page_grows_without_end(build: Callable[[], Any]) -> None:
+    b = build()
+    for i in range(60):
+        b.test("c", f"t{i:02}", duration_s=float(T_S[-1]))
+        for k in range(30):
+            b.add(
+                "quality_event", campaign="c", test=f"t{i:02}", source="daq", stream="daq", channel="dX", flag="spike",
+                from_s=600.0 * k, to_s=600.0 * k + 60, n=i + 1, detail="5 K beside both neighbours",
+            )  # fmt: skip
+    rows = section(html.unescape(client_of(b.store().path)[0].get("/quality").text), "What does not count")
+    assert "in the 50 of 60 tests that have most" in rows
+    told = re.findall(r'<p class="sub">(t\d\d)</p>', rows)
+    assert told == [f"t{i:02}" for i in range(59, 9, -1)]
+    assert rows.count("flagged=1&from=") == 50 * 20
+    assert rows.count("and 10 more") == 50
+
+
 def test_a_store_without_flags_says_so(build: Callable[[], Any]) -> None:
     text = page(build)
     assert "Nothing was flagged, and nothing lost" in text

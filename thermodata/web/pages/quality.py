@@ -20,7 +20,8 @@ from thermodata.view.lists.overview import TestList, WantedTests, find_tests
 from thermodata.web.command import command
 from thermodata.web.render import desk_of, page
 
-MOST_STRETCHES = 100  # of a cause in a test; its own page has the rest
+# of a cause, the worst first, and stretches of each: a page of a thousand tests would not open; theirs have the rest
+MOST_TESTS, MOST_STRETCHES = 50, 20
 _IDLE = Flag.NOT_MEASURING.word
 _RULED_OUT = frozenset(flag.word for flag in Flag if flag & INVALID)
 
@@ -81,6 +82,7 @@ def show(request: Request) -> Response:
         told=[c for c in causes if c.counts],
         losses=lost_in_words(lost(store, own)),
         faults=faults_in_words(faults_told(store, own)),
+        most_tests=MOST_TESTS,
         most=MOST_STRETCHES,
     )
 
@@ -109,6 +111,10 @@ def _cause(one: Mapping[str, Any]) -> CauseOfFlags:
     by_test: dict[str, list[Mapping[str, Any]]] = {}
     for row in rows:
         by_test.setdefault(row["test"], []).append(row)
+    tests = [
+        InTest(test, sum(r["n"] or 0 for r in some), tuple(folded(map(Flagged.of_row, some))))
+        for test, some in by_test.items()
+    ]
     return CauseOfFlags(
         one["campaign"],
         one["flag"],
@@ -117,8 +123,5 @@ def _cause(one: Mapping[str, Any]) -> CauseOfFlags:
         overruled,
         one["n"],
         tuple(dict.fromkeys(row["channel"] or row["source"] or "all channels" for row in rows)),
-        tuple(
-            InTest(test, sum(r["n"] or 0 for r in some), tuple(folded(map(Flagged.of_row, some))))
-            for test, some in by_test.items()
-        ),
+        tuple(sorted(tests, key=lambda t: -t.n)),
     )
