@@ -8,6 +8,10 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
+
+from thermodata.view.lists.overview import TestList, TestRow
+from thermodata.web.pages.quality import _headline
 
 from ..view.conftest import build as build
 from .client import Client
@@ -80,6 +84,20 @@ def test_the_worst_tests_of_a_cause_stand_first_and_no_page_grows_without_end(bu
     assert told == [f"t{i:02}" for i in range(59, 9, -1)]
     assert rows.count("flagged=1&from=") == 50 * 20
     assert rows.count("and 10 more") == 50
+
+
+@pytest.mark.parametrize(
+    ("valid", "idle", "said"),
+    [
+        (1.0, 0, "All of 1 k samples count"),
+        (0.9, 0, "10 % of 1 k samples do not count"),
+        (0.42, 575, "A defect in 0.5 % of 1 k samples; 58 % were not measured"),
+        (0.42, 580, "A defect in none; 58 % of 1 k samples were not measured"),
+    ],
+)
+def test_the_head_tells_defects_from_what_was_not_measured(valid: float, idle: int, said: str) -> None:
+    row = TestRow("c", "t", "day", "calibration", None, 60.0, {}, None, 1000, 1, valid, None, None, None, None, None)
+    assert _headline(TestList((row,), 1, 1, 1, 1), idle).replace("\u00a0", " ") == said
 
 
 def test_a_store_without_flags_says_so(build: Callable[[], Any]) -> None:

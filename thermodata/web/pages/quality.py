@@ -75,7 +75,7 @@ def show(request: Request) -> Response:
         command=command(desk.store_path, "quality", *asked),
         campaign=campaign,
         campaigns=tests.campaigns,
-        headline=_headline(tests),
+        headline=_headline(tests, sum(c.n for c in causes if c.flag == _IDLE)),
         tests=len(tests.rows),
         ruled_out=[c for c in causes if not c.counts and not c.idle],
         idle=[c for c in causes if not c.counts and c.idle],
@@ -87,8 +87,8 @@ def show(request: Request) -> Response:
     )
 
 
-def _headline(tests: TestList) -> str:
-    """How much is left out, by a defect or because the test did not measure."""
+def _headline(tests: TestList, idle: int) -> str:
+    """How much a defect rules out, and how much was not measured, which is none. idle: samples that were not."""
     there = [t for t in tests.rows if t.valid is not None]
     samples = sum(t.samples for t in there)
     gone = round(sum(t.samples * (1 - (t.valid or 0.0)) for t in there))
@@ -96,7 +96,12 @@ def _headline(tests: TestList) -> str:
         return "No samples"
     if not gone:
         return f"All of {count(samples)} samples count"
-    return f"{share(gone, samples)} of {count(samples)} samples do not count"
+    idle = min(idle, gone)
+    defect = f"{share(gone - idle, samples)} of {count(samples)} samples" if gone > idle else "none"
+    if not idle:
+        return f"{defect} do not count"
+    of = "" if gone > idle else f" of {count(samples)} samples"
+    return f"A defect in {defect}; {share(idle, samples)}{of} {'were' if idle > 1 else 'was'} not measured"
 
 
 def _causes(rows: Sequence[Mapping[str, Any]]) -> list[CauseOfFlags]:
