@@ -45,6 +45,7 @@ def test_two_that_are_exchanged_in_a_test_are_told_with_what_to_write() -> None:
     [told] = exchanged_sensors(exchanged(machine(), [3]), "dZ")
     assert (told.kind, told.campaign, told.test, told.at_s, told.size_um) == ("exchanged", "c", "t3", None, None)
     assert "there 'T_front' does what commands and other temperatures foretell of 'T_nut'" in told.why
+    assert "and 7 tests have them the other way round" in told.why
     assert "channels: {T_front: {signal: ...}, T_nut: {signal: ...}}" in told.why
 
 

@@ -62,7 +62,7 @@ def as_artefact(one: Exchange) -> Artefact:
         size_um=None,
         why=f"there '{first}' does what commands and other temperatures foretell of '{second}', by the gains of the "
         f"other tests, and '{second}' what they foretell of '{first}': as they are named {one.straight:.2g} K are left "
-        f"of them, exchanged {one.turned:.2g} K, and {counted(one.telling, 'test has', 'tests have')} them the other "
+        f"of them, exchanged {one.turned:.2g} K, and {counted(one.telling, 'test', 'has', 'have')} them the other "
         "way round: look whether their cables were exchanged, there or in those, or their columns; where they were, "
         f"give each the other's signal (in the campaign file, at the test: channels: {{{first}: {{signal: ...}}, "
         f"{second}: {{signal: ...}}}})",
