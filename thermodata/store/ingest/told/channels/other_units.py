@@ -101,7 +101,7 @@ def _alone_in_fahrenheit(test: str, names: Sequence[str]) -> str:
     written = ", ".join(f"{name}: {{unit: degF, instead_of: degC}}" for name in names)
     return (
         f"{with_count(names, 6)}: in {test} the readings lie beyond all that they are beside the other temperatures in "
-        "the other tests, and where they ever were once they are taken for degF, not degC. If that column is in degF, "
+        "the other tests; taken for degF, not degC, they lie within it. If that column is in degF, "
         f"write under the test: channels: {{{written}}}; if what it measures was warm before the test: "
         "start_state: warm"
     )
